@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan: what a scene and a view need, what was left out and why. To a render what EXPLAIN is to a query.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/base/vec.h"
+
+namespace tilelight {
+
+// What a kernel may have to do. Bits of a FeatureSet; stored in reports by name.
+enum class Feature : uint32_t {
+  spheres, boxes, planes, triangles, smooth_normals, checker, point_lights, directional_lights, specular, shadows,
+  tinted_shadows, reflection, transmission, nested_media, fresnel, attenuation, count_
+};
+inline constexpr int kFeatureCount = static_cast<int>(Feature::count_);
+std::string_view feature_name(Feature feature);
+
+class FeatureSet {
+ public:
+  constexpr bool has(Feature f) const { return bits_ >> static_cast<uint32_t>(f) & 1u; }
+  constexpr void add(Feature f) { bits_ |= 1u << static_cast<uint32_t>(f); }
+  constexpr void remove(Feature f) { bits_ &= ~(1u << static_cast<uint32_t>(f)); }
+  constexpr uint32_t bits() const { return bits_; }
+  constexpr bool operator==(const FeatureSet&) const = default;
+
+ private:
+  uint32_t bits_ = 0;
+};
+
+// One thing that costs nothing because this scene or this view cannot show it.
+struct LeftOut {
+  std::string what;  // "light objects/2", "feature reflection", "material ivory", ...
+  std::string why;   // a sentence
+};
+
+struct Plan {
+  FeatureSet features;             // what the kernel does
+  std::string kernel;              // the variant's name, e.g. "mirrors+shadows"
+  std::string isa;                 // instruction set the kernel is dispatched to, e.g. "AVX3"
+  std::vector<LeftOut> left_out;
+  int64_t bodies = 0, triangles_stored = 0, triangles_instanced = 0, lights = 0;
+  int64_t memory_bytes = 0;        // of the compiled scene
+  Vec3 bounds_min{0.0}, bounds_max{0.0};  // of the finite bodies, scene units
+  double compile_ms = 0.0, plan_ms = 0.0;
+  double predicted_mrays = 0.0;    // rays the render will trace at most, millions; 0 = not predicted
+};
+
+// The plan as a JSON object.
+std::string plan_json(const Plan& plan);
+
+}  // namespace tilelight

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chess set: six pieces in the Staunton manner and a framed board, made by the program. Object space: the middle
+// of a piece's foot at the origin, +Y up, the king 1.9 high, a square 1 unit. White's knights look towards -z.
+#pragma once
+
+#include <memory>
+
+#include "renderer/geometry/tri_mesh.h"
+
+namespace tilelight {
+
+inline constexpr int kMinDetail = 8, kMaxDetail = 512;
+
+// A closed mesh with outward normals; `detail` = segments around the axis, kMinDetail..kMaxDetail. The same detail gives
+// the same bits on every CPU. Cost grows with detail squared: about 500 triangles at 8, about 200,000 at 512.
+TriMesh make_chess_piece(Piece piece, int detail);
+
+// The number of triangles make_chess_piece would make, without making them (for limits); exact.
+int64_t chess_piece_triangles(Piece piece, int detail);
+
+// The board without its squares' pattern: `squares` = the 64 squares' top slab as a box from y = -kBoardThickness to 0;
+// `frame` = the moulded wooden frame around it, a closed mesh.
+inline constexpr double kBoardThickness = 0.12;
+TriMesh make_board_frame();
+
+}  // namespace tilelight

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// TriMesh: triangles with a normal at every corner, so that one vertex can be smooth on one side of a crease and sharp
+// on the other. Object space, double. A plain value; made once and shared by every instance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "renderer/base/vec.h"
+#include "renderer/scene/scene.h"
+
+namespace tilelight {
+
+struct TriMesh {
+  std::vector<Vec3> positions;
+  std::vector<std::array<uint32_t, 3>> triangles;    // counter-clockwise from outside
+  std::vector<std::array<Vec3, 3>> corner_normals;   // unit, one triple a triangle; empty = flat everywhere
+  bool closed = false;                               // every edge is used exactly twice, once in each direction
+  int64_t degenerate_dropped = 0;                    // triangles of zero area that were left out
+  int64_t normals_repaired = 0;                      // zero or missing normals replaced by the geometric one
+};
+
+// A user's mesh: degenerate triangles dropped and counted, normals averaged by angle and split at crease_deg
+// (Thuermer and Wuethrich 1998), or taken as given. Zero normals fall back to the geometric one, counted.
+TriMesh make_tri_mesh(const MeshData& data);
+
+// True if every directed edge occurs once and its opposite once.
+bool is_closed(const TriMesh& mesh);
+
+}  // namespace tilelight

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Render: one render from pass to pass. Passes of 1, 1, 2, 4, 8, ... samples a pixel over a grid of work items; only
+// whole passes count. It owns no threads: a TilePool calls it. The image of the passes done so far can be read at any
+// time. Any thread may call any method.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/compile/compile.h"
+#include "renderer/film/film.h"
+#include "renderer/schedule/tile_pool.h"
+
+namespace tilelight {
+
+enum class RenderState { running, done, cancelled, failed };
+
+struct RayCounts {
+  int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;
+  int64_t total() const { return primary + shadow + reflected + refracted; }
+};
+
+// One point of the report: after a whole pass. Times in milliseconds since the start.
+struct ReportPoint {
+  int pass = 0, spp = 0;
+  double elapsed_ms = 0.0, cpu_ms = 0.0;
+  RayCounts rays;
+  double truncation_bound = -1.0;  // bound of the mean linear value left untraced; < 0: none is finite
+  int64_t nonfinite = 0;           // samples that were not finite; each is a bug
+};
+
+struct RenderReport {
+  std::vector<ReportPoint> points;
+  std::string stop;  // "samples", "time", "passes", "cancelled"; empty while running
+  std::vector<int> passes;  // what passes: [...] replays
+  int threads = 0;
+};
+
+struct RenderProgress {
+  RenderState state = RenderState::running;
+  int spp = 0;             // samples a pixel in whole passes so far
+  double fraction = 0.0;   // [0, 1]
+  double elapsed_ms = 0.0;
+  double eta_ms = -1.0;    // < 0: unknown
+  std::string error;       // state failed only
+};
+
+struct RenderOptions {
+  int tile_px = 0;          // 0: chosen by measurement
+  std::function<void()> on_pass;  // after each whole pass and at the end, from a pool thread; must be quick
+};
+
+class Render {
+ public:
+  // Starts at once. The pool must outlive the render's last item.
+  static std::shared_ptr<Render> start(TilePool& pool, Priority priority, std::shared_ptr<const CompiledScene> scene,
+                                       ViewPlan plan, RenderOptions options = {});
+  virtual ~Render() = default;
+
+  virtual void cancel() = 0;  // cooperative; reaches the tiles within milliseconds
+  virtual RenderProgress progress() const = 0;
+  virtual RenderReport report() const = 0;
+  // The image of the whole passes so far; null before the first pass.
+  virtual std::shared_ptr<const Image> image() const = 0;
+  // Blocks until the render ends or the time is over. True if it ended.
+  virtual bool wait_ms(double ms) const = 0;
+};
+
+// The report as a JSON object.
+std::string report_json(const RenderReport& report, const Plan& plan);
+
+}  // namespace tilelight

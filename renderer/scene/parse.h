@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene language, version 1: JSON in, Scene and View out, or every error at once. Pure; any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "renderer/scene/limits.h"
+#include "renderer/scene/scene.h"
+
+namespace tilelight {
+
+// One thing wrong with a document. `pointer` is a JSON pointer (RFC 6901) into it.
+struct SceneError {
+  std::string pointer;
+  std::string code;                  // unknown_key, wrong_type, out_of_range, unknown_name, not_in_this_release, limit, ...
+  std::string detail;                // what was found and what is allowed
+  std::vector<std::string> allowed;  // the allowed words, where they are few
+  std::string hint;                  // did-you-mean, or what to do; may be empty
+  int line = 0, column = 0;          // 1-based place in the text; 0 where unknown
+};
+
+struct SceneWarning {
+  std::string pointer, code, detail;
+};
+
+struct SceneErrors {
+  enum class Kind { not_json, too_large, invalid };  // HTTP 400, 413, 422
+  Kind kind = Kind::invalid;
+  std::vector<SceneError> errors;
+};
+
+struct ParsedScene {
+  Scene scene;
+  View view;
+  std::string scene_id;              // SHA-256 of the canonical document
+  std::vector<SceneWarning> warnings;
+};
+
+// Parses a whole scene document. Never throws on bad input; takes no memory for what exceeds a limit.
+::tl::expected<ParsedScene, SceneErrors> parse_scene(std::string_view text, const Limits& limits);
+
+// Parses {"camera"?, "image"?, "render"?} and merges it key by key over `base`.
+::tl::expected<View, SceneErrors> parse_view(std::string_view text, const View& base, const Limits& limits);
+
+// A chess position from a FEN, or from its placement field alone.
+::tl::expected<ChessPositionShape, std::string> parse_fen(std::string_view fen);
+
+// The scene that `tilelight chess` and the page's FEN field render: one chess position, a camera, two lights.
+std::string chess_scene_json(std::string_view fen, int detail);
+
+// The JSON Schema (2020-12) of the language with these limits.
+std::string scene_schema_json(const Limits& limits);
+
+// The limits as a JSON object, as published.
+std::string limits_json(const Limits& limits);
+
+}  // namespace tilelight

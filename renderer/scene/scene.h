@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene: what the user asked for, checked and with its names resolved, in double and in the user's units.
+// View: how he wants to look at it. A moved camera changes the View alone. Both are plain values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/base/vec.h"
+
+namespace tilelight {
+
+using MaterialId = uint32_t;  // index into Scene::materials
+
+// A 2-colour pattern: cells of edge `size` in the object's local frame, scene units.
+struct Checker {
+  Color a{1.0}, b{0.0};
+  double size = 1.0;
+};
+using Paint = std::variant<Color, Checker>;
+
+struct Material {
+  std::string name;  // empty for an inline material
+  Paint ambient = Color(0.8);
+  Paint diffuse = Color(0.8);
+  Color specular{0.0};
+  double shininess = 32.0;  // exponent n of the lobe, >= 0
+  Color reflection{0.0};    // kr
+  Color transmission{0.0};  // kt
+  double ior = 1.5;         // index of refraction, > 0
+  int priority = 0;         // of overlapping media the higher one wins
+  bool fresnel = false;     // weigh kr and kt by the dielectric Fresnel term
+};
+
+enum class LightKind { point, directional };
+struct Light {
+  std::string name;
+  LightKind kind = LightKind::point;
+  Vec3 position{0.0};   // point: scene units
+  Vec3 direction{0.0, -1.0, 0.0};  // directional: the way the light travels, not normalised
+  Color color{1.0};
+  double intensity = 1.0;
+  bool shadow = true;
+};
+
+enum class AttenuationMode { linear, inverse_square, none };
+struct Attenuation {
+  AttenuationMode mode = AttenuationMode::linear;
+  double k = 1.0;  // scene units; squared units for inverse_square
+};
+
+enum class Piece : uint8_t { pawn, rook, knight, bishop, queen, king };
+enum class Side : uint8_t { white, black };
+inline constexpr int kPieceKinds = 6;
+
+struct SphereShape {
+  Vec3 center{0.0};
+  double radius = 1.0;
+};
+struct BoxShape {  // also a cube
+  Vec3 min{-0.5}, max{0.5};
+};
+struct PlaneShape {  // infinite
+  Vec3 point{0.0}, normal{0.0, 1.0, 0.0};
+};
+struct MeshShape {
+  uint32_t mesh = 0;  // index into Scene::meshes
+};
+struct ChessPieceShape {
+  Piece piece = Piece::pawn;
+  Side side = Side::white;
+  Vec3 position{0.0};  // middle of the foot
+  int detail = 48;     // segments around the axis
+};
+// Roles of a chess position's materials, in the order of ChessPositionShape::materials.
+enum class ChessRole : uint8_t { white, black, light, dark, frame };
+inline constexpr int kChessRoles = 5;
+struct ChessMan {
+  Piece piece;
+  Side side;
+};
+struct ChessPositionShape {
+  // squares[rank][file], rank 0 = first rank, file 0 = a. A square is 1 unit; a1 is centred at (-3.5, 0, 3.5).
+  std::array<std::array<std::optional<ChessMan>, 8>, 8> squares{};
+  int detail = 48;
+  std::array<MaterialId, kChessRoles> materials{};
+};
+using Shape = std::variant<SphereShape, BoxShape, PlaneShape, MeshShape, ChessPieceShape, ChessPositionShape>;
+
+struct Object {
+  std::string name;
+  Shape shape;
+  MaterialId material = 0;    // unused by ChessPositionShape
+  Mat4 world_from_shape{1.0};  // the user's transform, after the shape's own placement; never singular
+};
+
+struct MeshData {
+  std::string name;
+  std::vector<Vec3> positions;
+  std::vector<uint32_t> indices;  // 3 a triangle, counter-clockwise from outside
+  std::vector<Vec3> normals;      // none, or one a position
+  double crease_deg = 30.0;       // edges sharper than this stay sharp; only where normals are absent
+};
+
+struct Background {
+  Color bottom{0.9, 0.9, 0.95}, top{0.35, 0.5, 0.8};
+};
+
+struct Scene {
+  std::vector<Material> materials;  // [0] is the default material
+  std::vector<MeshData> meshes;
+  std::vector<Object> objects;  // at least one
+  std::vector<Light> lights;
+  Background background;
+  Color ambient{0.12};
+  Attenuation attenuation;
+};
+
+enum class Projection { perspective, orthographic };
+struct Camera {
+  Projection projection = Projection::perspective;
+  Vec3 position{0.0}, target{0.0}, up{0.0, 1.0, 0.0};
+  double fov_y_deg = 40.0;  // perspective
+  double height = 1.0;      // orthographic: scene units from the bottom to the top edge
+};
+
+struct ImageSpec {
+  int width = 1280, height = 720;  // pixels
+  double exposure = 0.0;           // stops
+};
+
+// Only what this release can render; other names of the language are refused by the parser.
+enum class Algorithm { raytrace };
+enum class Shading { phong };
+
+struct RenderSpec {
+  Algorithm algorithm = Algorithm::raytrace;
+  Shading shading = Shading::phong;
+  bool shadows = true;
+  int max_depth = 8;             // secondary rays in a row; 0 = local light only
+  double weight_cutoff = 0.002;  // a path of less weight is not followed
+  int ray_budget = 4096;         // rays a pixel sample
+  uint32_t seed = 0;
+  // Stop rules; the first that holds ends the render.
+  std::optional<int> samples;     // a pixel
+  std::optional<double> time_ms;
+  std::vector<int> passes;        // an exact replay; empty = not asked for
+};
+
+struct View {
+  std::optional<Camera> camera;  // absent: framed from the scene
+  ImageSpec image;
+  RenderSpec render;
+};
+
+}  // namespace tilelight
