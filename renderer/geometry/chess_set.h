@@ -11,16 +11,16 @@ namespace tilelight {
 
 inline constexpr int kMinDetail = 8, kMaxDetail = 512;
 
-// A closed mesh with outward normals; `detail` = segments around the axis, kMinDetail..kMaxDetail. The same detail gives
-// the same bits on every CPU. Cost grows with detail squared: about 500 triangles at 8, about 200,000 at 512.
+// A closed mesh with outward normals; `detail` = segments around the axis, kMinDetail..kMaxDetail. The same detail
+// gives the same bits on every CPU. Cost grows with detail squared: about 500 triangles at 8, about 200,000 at 512.
 TriMesh make_chess_piece(Piece piece, int detail);
 
 // The number of triangles make_chess_piece would make, without making them (for limits); exact.
 int64_t chess_piece_triangles(Piece piece, int detail);
 
-// The board without its squares' pattern: `squares` = the 64 squares' top slab as a box from y = -kBoardThickness to 0;
-// `frame` = the moulded wooden frame around it, a closed mesh.
-inline constexpr double kBoardThickness = 0.12;
+// The 64 squares are a box from y = -kBoardThickness to 0. The frame is the moulded wood around it, a closed mesh with
+// mitred corners from |x|, |z| = 4 to kFrameOuter; it stands on a recessed foot kFrameFoot below the squares' box.
+inline constexpr double kBoardThickness = 0.12, kFrameFoot = 0.03, kFrameOuter = 4.61;
 TriMesh make_board_frame();
 
 }  // namespace tilelight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Profile: the outline that a turner follows, from the middle of the foot outwards and up to the top, in the half plane
+// (r, y). Made of lines, circular arcs and cubic curves; where their directions differ the corner is sharp.
+#pragma once
+
+#include <vector>
+
+#include "renderer/base/vec.h"
+
+namespace tilelight {
+
+struct ProfilePoint {
+  Vec2 position;  // (r, y)
+  Vec2 normal;    // unit, to the right of the way: outward
+};
+using ProfileRun = std::vector<ProfilePoint>;  // smooth; the next run starts at the position where this one ends
+
+class Profile {
+ public:
+  // `detail` as in make_chess_piece. Curves are cut into a number of pieces that grows with its square root, so that
+  // the whole mesh grows with its power of 1.5.
+  Profile(Vec2 start, int detail);
+
+  Profile& line_to(Vec2 end);
+  // A circular arc that turns by turn_deg in all, counter-clockwise if positive: it bulges outwards on the way up.
+  Profile& arc_to(Vec2 end, double turn_deg);
+  Profile& curve_to(Vec2 control0, Vec2 control1, Vec2 end);
+
+  Vec2 end() const { return runs_.back().back().position; }
+  const std::vector<ProfileRun>& runs() const { return runs_; }
+  int segments() const;
+
+ private:
+  int segments_of(double length, double turn_rad) const;
+  void start_element(Vec2 tangent);
+  void add(Vec2 position, Vec2 tangent);
+
+  int detail_;
+  std::vector<ProfileRun> runs_;
+};
+
+}  // namespace tilelight
