@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "renderer/compile/eye.h"
 #include "renderer/compile/plan.h"
 #include "renderer/schedule/tile_pool.h"
 #include "renderer/scene/scene.h"
@@ -23,6 +24,7 @@ const Plan& scene_plan(const CompiledScene& scene);
 struct ViewPlan {
   View view;         // with the camera filled in
   Camera camera;     // as used, user's units
+  Eye eye;           // the camera in normalised space
   FeatureSet features;
   Plan plan;         // the scene's plan and what this view adds to it
 };

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/compile/compile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "renderer/base/elementary.h"
+#include "renderer/compile/passes.h"
+
+namespace tilelight {
+namespace {
+
+class Stopwatch {
+ public:
+  double ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void rebase_lights(CompiledScene& scene) {
+  for (CompiledLight& light : scene.lights) light.position = (light.position - scene.center) / scene.units;
+}
+
+}  // namespace
+
+std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool& pool) {
+  const Stopwatch watch;
+  auto out = std::make_shared<CompiledScene>();
+  LeftOutList left_out;
+  out->background = scene.background;
+  out->ambient = scene.ambient;
+  out->attenuation = scene.attenuation;
+
+  std::vector<Body> bodies = make_bodies(scene);
+  out->materials = drop_unused_materials(scene, bodies, left_out);
+  out->lights = drop_dead_lights(scene, out->materials, left_out);
+  rebase_and_normalise(bodies, pool, *out);
+  rebase_lights(*out);
+  out->radiance_bound = find_radiance_bound(*out);
+  out->plan.features = find_features(*out, left_out);
+  out->tree = build_scene_tree(*out, pool);
+
+  Plan& plan = out->plan;
+  plan.left_out.insert(plan.left_out.end(), left_out.begin(), left_out.end());
+  plan.lights = static_cast<int64_t>(out->lights.size());
+  plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody) +
+                                            out->tree.nodes.size() * sizeof(WideBvh::Node));
+  plan.compile_ms = watch.ms();
+  return out;
+}
+
+const Plan& scene_plan(const CompiledScene& scene) { return scene.plan; }
+
+Camera framed_camera(const CompiledScene& scene, int width, int height) {
+  using namespace elementary;
+  constexpr double kMargin = 1.05;
+  const double azimuth = rad_from_deg(30.0), elevation = rad_from_deg(25.0);
+  Camera camera;
+  const double half_y = rad_from_deg(0.5 * camera.fov_y_deg);
+  const double half_x = atan2(tan(half_y) * width / height, 1.0);
+  const double radius = scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0;
+  const double distance = kMargin * radius / sin(std::min(half_x, half_y));
+  camera.target = scene.bounding_center;
+  camera.position = camera.target + distance * Vec3(sin(azimuth) * cos(elevation), sin(elevation),
+                                                    cos(azimuth) * cos(elevation));
+  return camera;
+}
+
+ViewPlan plan_view(const CompiledScene& scene, const View& view) {
+  const Stopwatch watch;
+  ViewPlan out;
+  out.view = view;
+  out.plan = scene.plan;
+  out.features = scene.plan.features;
+  out.camera = view.camera ? *view.camera : framed_camera(scene, view.image.width, view.image.height);
+  out.view.camera = out.camera;
+  out.eye = make_eye(out.camera, view.image.width, view.image.height, scene.center, scene.units);
+  const auto leave_out = [&](Feature feature, const char* why) {
+    if (!out.features.has(feature)) return;
+    out.features.remove(feature);
+    out.plan.left_out.push_back({"feature " + std::string(feature_name(feature)), why});
+  };
+  if (!view.render.shadows) {
+    leave_out(Feature::shadows, "the view asks for none");
+    leave_out(Feature::tinted_shadows, "the view asks for no shadows");
+  }
+  if (view.render.max_depth == 0) {
+    leave_out(Feature::reflection, "max_depth is 0: local light only");
+    leave_out(Feature::transmission, "max_depth is 0: local light only");
+    leave_out(Feature::nested_media, "max_depth is 0: local light only");
+    leave_out(Feature::fresnel, "max_depth is 0: local light only");
+  }
+  out.plan.features = out.features;
+  out.plan.plan_ms = watch.ms();
+  return out;
+}
+
+}  // namespace tilelight

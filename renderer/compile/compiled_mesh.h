@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// compile_mesh: TriMesh -> CompiledMesh: normalised, indexed, with its tree. Pure; shared by all instances.
+#pragma once
+
+#include <memory>
+
+#include "renderer/compile/compiled_scene.h"
+
+namespace tilelight {
+
+std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh, TilePool& pool);
+
+}  // namespace tilelight

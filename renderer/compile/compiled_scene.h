@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// CompiledScene: what runs. World space here is *normalised*: the scene's centre at the origin and a power of two as
+// scale, so that its finite bodies fit in [-1, 1]. Every mesh has a normalised local space of its own. Rays and hits live
+// in double; boxes and the first test of triangles are float and only ever discard what certainly misses. Immutable
+// after compile_scene; any thread may read.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/compile/bodies.h"
+#include "renderer/compile/bvh.h"
+#include "renderer/compile/plan.h"
+
+namespace tilelight {
+
+// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places repeat
+// the last triangle and carry its id.
+struct alignas(64) TriangleBlock {
+  float vertex[3][3][8];
+  uint32_t id[8];
+};
+
+struct CompiledMesh {
+  WideBvh bvh;
+  std::vector<TriangleBlock> blocks;  // one a leaf of the tree
+  // The exact triangles, local normalised space.
+  std::vector<Vec3> positions;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<Vec3> normals;  // shared corner normals, unit
+  std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
+  bool closed = false;
+  Mat4 mesh_from_local{1.0};  // undoes the normalisation
+
+  int64_t memory_bytes() const;
+};
+
+struct CompiledBody {
+  BodyKind kind = BodyKind::sphere;
+  bool closed = true;       // encloses a medium (sphere, box of some thickness, closed mesh)
+  MaterialId material = 0;  // into CompiledScene::materials
+  uint32_t body = 0;        // index into make_bodies' list: the public id
+  const CompiledMesh* mesh = nullptr;
+  Vec3 half{1.0};
+  Mat4 local_from_world{1.0};
+  Mat4 world_from_local{1.0};
+  Mat3 world_from_normal{1.0};  // cofactor matrix, sign by determinant: takes outward to outward
+  Mat4 pattern_from_local{1.0};
+  std::string name;
+};
+
+// A light in normalised space. Intensities are colour * intensity.
+struct CompiledLight {
+  LightKind kind = LightKind::point;
+  Vec3 position{0.0};
+  Vec3 to_light{0.0};  // directional: unit
+  Color intensity{0.0};
+  bool shadow = true;
+  uint32_t light = 0;  // index into Scene::lights
+};
+
+// A material with what it does not do taken away.
+struct CompiledMaterial {
+  Material source;
+  bool is_specular = false, is_reflective = false, is_transmissive = false;
+};
+
+struct CompiledScene {
+  std::vector<CompiledBody> bodies;      // finite ones first; `tree` is over them
+  size_t finite_bodies = 0;              // bodies[finite_bodies..] are planes
+  WideBvh tree;                          // over bodies[0..finite_bodies), one a leaf
+  std::vector<std::shared_ptr<const CompiledMesh>> meshes;
+  std::vector<CompiledMaterial> materials;
+  std::vector<CompiledLight> lights;
+  Background background;
+  Color ambient{0.0};
+  Attenuation attenuation;
+  Vec3 center{0.0};          // of the scene, user's units
+  double units = 1.0;        // user's units a normalised unit; a power of two
+  Vec3 bounding_center{0.0};     // of a sphere about the finite bodies, user's units
+  double bounding_radius = 1.0;
+  double radiance_bound = -1.0;  // no ray brings more than this in any channel; negative: no finite bound is known
+  Plan plan;
+};
+
+}  // namespace tilelight

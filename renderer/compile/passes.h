@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of compile_scene, in the order in which they run. Each is pure: values in, values out; what it leaves out
+// it says in the list it is given.
+#pragma once
+
+#include <vector>
+
+#include "renderer/compile/compiled_scene.h"
+
+namespace tilelight {
+
+using LeftOutList = std::vector<LeftOut>;
+
+// Keeps the materials that some body wears and points the bodies at their new places.
+std::vector<CompiledMaterial> drop_unused_materials(const Scene& scene, std::vector<Body>& bodies, LeftOutList& left_out);
+
+// Keeps the lights that can light something: not black, and some material reflects light at all.
+std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vector<CompiledMaterial>& materials,
+                                            LeftOutList& left_out);
+
+// Compiles every mesh once, sets all bodies in the scene's normalised space, planes last, and measures the bounds.
+// Fills bodies, finite_bodies, meshes, center, units, bounding sphere and the plan's bounds and counts.
+void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, CompiledScene& out);
+
+// What the kernel has to do for this scene, and the reasons for what it need not do.
+FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out);
+
+// The tree over the finite bodies.
+WideBvh build_scene_tree(const CompiledScene& scene, TilePool& pool);
+
+// An upper bound of the light any ray brings, every channel: B of the truncation bound w * B. Negative if none is finite.
+double find_radiance_bound(const CompiledScene& scene);
+
+// World-space box of a finite body, in the scene's normalised space.
+Box body_bounds(const CompiledBody& body);
+
+}  // namespace tilelight

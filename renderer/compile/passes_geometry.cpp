@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include "renderer/compile/compiled_mesh.h"
+#include "renderer/compile/normalise.h"
+#include "renderer/compile/passes.h"
+
+namespace tilelight {
+namespace {
+
+// Points whose convex hull holds the body, in the space that `to` leads to. Spheres are left to their callers.
+template <class Visit>
+void visit_hull(const CompiledBody& body, const Mat4& to, Visit visit) {
+  const auto visit_box = [&](const Vec3& lo, const Vec3& hi) {
+    for (int corner = 0; corner < 8; ++corner) {
+      visit(transform_point(to, {corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z}));
+    }
+  };
+  if (body.kind == BodyKind::box) {
+    visit_box(-body.half, body.half);
+  } else if (body.mesh->bvh.nodes.empty()) {
+    visit(transform_point(to, Vec3(0.0)));
+  } else {
+    // The root's eight boxes fit more closely than the one around them.
+    const WideBvh::Node& root = body.mesh->bvh.nodes[0];
+    for (int c = 0; c < WideBvh::kWidth; ++c) {
+      if (root.child[c] == WideBvh::kEmpty) continue;
+      const auto corner = [&](int side) {
+        const double inward = side == 0 ? WideBvh::kWiden : -WideBvh::kWiden;
+        return Vec3(root.bounds[side][0][c], root.bounds[side][1][c], root.bounds[side][2][c]) + inward;
+      };
+      visit_box(corner(0), corner(1));
+    }
+  }
+}
+
+Box bounds_in(const CompiledBody& body, const Mat4& to) {
+  Box box;
+  if (body.kind == BodyKind::sphere) {
+    // Half extent along an axis: the length of the matrix's row.
+    Vec3 half;
+    for (int axis = 0; axis < 3; ++axis) half[axis] = glm::length(Vec3(to[0][axis], to[1][axis], to[2][axis]));
+    box.grow(Vec3(to[3]) - half);
+    box.grow(Vec3(to[3]) + half);
+  } else {
+    visit_hull(body, to, [&](const Vec3& p) { box.grow(p); });
+  }
+  return box;
+}
+
+double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center) {
+  double radius = 0.0;
+  if (body.kind == BodyKind::sphere) {
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(Vec3(to[column])));
+    return glm::length(Vec3(to[3]) - center) + largest;
+  }
+  visit_hull(body, to, [&](const Vec3& p) { radius = std::max(radius, glm::length(p - center)); });
+  return radius;
+}
+
+Mat3 cofactor(const Mat3& m) {
+  return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+}
+
+void set_world(CompiledBody& body, const Mat4& world_from_local) {
+  body.world_from_local = world_from_local;
+  body.local_from_world = glm::inverse(world_from_local);
+  const Mat3 linear(world_from_local);
+  // Scaled to about 1 before products are formed, so that neither tiny nor huge bodies under- or overflow.
+  const double size = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  const Mat3 unit = linear / size;
+  body.world_from_normal = glm::determinant(unit) < 0.0 ? -cofactor(unit) : cofactor(unit);
+}
+
+bool encloses(const Body& body) {
+  switch (body.kind) {
+    case BodyKind::sphere: return true;
+    case BodyKind::box: return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
+    case BodyKind::mesh: return body.mesh->closed;
+    case BodyKind::plane: return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+Box body_bounds(const CompiledBody& body) { return bounds_in(body, body.world_from_local); }
+
+void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, CompiledScene& out) {
+  std::map<const TriMesh*, std::shared_ptr<const CompiledMesh>> compiled;
+  for (const Body& body : bodies) {
+    if (body.mesh && !compiled.contains(body.mesh.get())) {
+      const auto& mesh = compiled[body.mesh.get()] = compile_mesh(*body.mesh, pool);
+      out.meshes.push_back(mesh);
+      out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
+      out.plan.memory_bytes += mesh->memory_bytes();
+      if (body.mesh->degenerate_dropped > 0) {
+        out.plan.left_out.push_back({std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name,
+                                     "they have no area"});
+      }
+    }
+  }
+
+  // User's space first: the bounds say where the centre is and how large a unit is.
+  std::vector<Mat4> user_from_local;
+  Box bounds;
+  for (const bool finite : {true, false}) {
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      const Body& body = bodies[i];
+      if ((body.kind != BodyKind::plane) != finite) continue;
+      CompiledBody c;
+      c.kind = body.kind;
+      c.closed = encloses(body);
+      c.material = body.material;
+      c.body = static_cast<uint32_t>(i);
+      c.half = body.half;
+      c.name = body.name;
+      c.pattern_from_local = body.pattern_from_local;
+      Mat4 to = body.world_from_local;
+      if (body.mesh) {
+        c.mesh = compiled[body.mesh.get()].get();
+        to = to * c.mesh->mesh_from_local;
+        c.pattern_from_local = c.pattern_from_local * c.mesh->mesh_from_local;
+        out.plan.triangles_instanced += static_cast<int64_t>(c.mesh->triangles.size());
+      }
+      if (finite) bounds.grow(bounds_in(c, to));
+      user_from_local.push_back(to);
+      out.bodies.push_back(std::move(c));
+    }
+    if (finite) out.finite_bodies = out.bodies.size();
+  }
+  if (bounds.is_empty()) {  // planes alone: look at the first one's point
+    bounds.grow(Vec3(user_from_local[0][3]) - Vec3(1.0));
+    bounds.grow(Vec3(user_from_local[0][3]) + Vec3(1.0));
+  }
+
+  const Normalisation n = normalise(bounds);
+  out.center = n.center;
+  out.units = n.units;
+  out.bounding_center = n.center;
+  out.bounding_radius = out.finite_bodies == 0 ? n.units : 0.0;
+  for (size_t i = 0; i < out.bodies.size(); ++i) {
+    CompiledBody& body = out.bodies[i];
+    if (i < out.finite_bodies) {
+      out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], n.center));
+    }
+    Mat4 world = user_from_local[i];
+    world[3] = Vec4(Vec3(world[3]) - n.center, 1.0);  // subtract before scaling: exact where it can be
+    for (int column = 0; column < 4; ++column) {
+      for (int axis = 0; axis < 3; ++axis) world[column][axis] /= n.units;
+    }
+    set_world(body, world);
+  }
+  out.plan.bodies = static_cast<int64_t>(out.bodies.size());
+  out.plan.bounds_min = bounds.lo;
+  out.plan.bounds_max = bounds.hi;
+}
+
+WideBvh build_scene_tree(const CompiledScene& scene, TilePool& pool) {
+  std::vector<Box> boxes;
+  boxes.reserve(scene.finite_bodies);
+  for (size_t i = 0; i < scene.finite_bodies; ++i) boxes.push_back(body_bounds(scene.bodies[i]));
+  return build_bvh(boxes, 1, pool);
+}
+
+}  // namespace tilelight

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+
+#include "renderer/compile/passes.h"
+
+namespace tilelight {
+namespace {
+
+bool is_zero(const Color& c) { return c == Color(0.0); }
+
+bool is_zero(const Paint& paint) {
+  if (const auto* color = std::get_if<Color>(&paint)) return is_zero(*color);
+  const auto& checker = std::get<Checker>(paint);
+  return is_zero(checker.a) && is_zero(checker.b);
+}
+
+double max_channel(const Color& c) { return std::max({c.r, c.g, c.b}); }
+
+Color max_color(const Paint& paint) {
+  if (const auto* color = std::get_if<Color>(&paint)) return *color;
+  const auto& checker = std::get<Checker>(paint);
+  return glm::max(checker.a, checker.b);
+}
+
+std::string title_of(const Light& light, size_t index) {
+  return "light " + (light.name.empty() ? "lights/" + std::to_string(index) : light.name);
+}
+
+}  // namespace
+
+std::vector<CompiledMaterial> drop_unused_materials(const Scene& scene, std::vector<Body>& bodies,
+                                                    LeftOutList& left_out) {
+  constexpr MaterialId kUnused = ~MaterialId{0};
+  std::vector<MaterialId> place(scene.materials.size(), kUnused);
+  std::vector<CompiledMaterial> kept;
+  for (Body& body : bodies) {
+    MaterialId& id = place[body.material];
+    if (id == kUnused) {
+      id = static_cast<MaterialId>(kept.size());
+      const Material& m = scene.materials[body.material];
+      kept.push_back({m, !is_zero(m.specular), !is_zero(m.reflection), !is_zero(m.transmission)});
+    }
+    body.material = id;
+  }
+  for (size_t i = 0; i < place.size(); ++i) {
+    if (place[i] == kUnused && !scene.materials[i].name.empty()) {
+      left_out.push_back({"material " + scene.materials[i].name, "no object wears it"});
+    }
+  }
+  return kept;
+}
+
+std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vector<CompiledMaterial>& materials,
+                                            LeftOutList& left_out) {
+  const bool something_reflects = std::any_of(materials.begin(), materials.end(), [](const CompiledMaterial& m) {
+    return m.is_specular || !is_zero(m.source.diffuse);
+  });
+  std::vector<CompiledLight> kept;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const Color intensity = light.color * light.intensity;
+    if (is_zero(intensity)) {
+      left_out.push_back({title_of(light, i), "its colour times its intensity is black"});
+    } else if (!something_reflects) {
+      left_out.push_back({title_of(light, i), "no material has a diffuse or specular part to light"});
+    } else {
+      CompiledLight compiled;
+      compiled.kind = light.kind;
+      compiled.position = light.position;
+      if (light.kind == LightKind::directional) compiled.to_light = -glm::normalize(light.direction);
+      compiled.intensity = intensity;
+      compiled.shadow = light.shadow;
+      compiled.light = static_cast<uint32_t>(i);
+      kept.push_back(compiled);
+    }
+  }
+  return kept;
+}
+
+double find_radiance_bound(const CompiledScene& scene) {
+  double light_sum = 0.0;  // the brightest channel of what all lights can bring to one point
+  for (const CompiledLight& light : scene.lights) {
+    double factor = 1.0;
+    if (light.kind == LightKind::point && scene.attenuation.mode != AttenuationMode::none) {
+      if (!(scene.attenuation.k > 0.0)) return -1.0;  // unbounded near the light
+      factor = 1.0 / scene.attenuation.k;
+    }
+    light_sum += max_channel(light.intensity) * factor;
+  }
+  double local = 0.0, passed_on = 0.0;
+  for (const CompiledMaterial& m : scene.materials) {
+    const double ambient = max_channel(scene.ambient * max_color(m.source.ambient));
+    const double lit = max_channel(max_color(m.source.diffuse) + m.source.specular);
+    local = std::max(local, ambient + light_sum * lit);
+    passed_on = std::max(passed_on, max_channel(m.source.reflection + m.source.transmission));
+  }
+  if (passed_on >= 1.0) return -1.0;
+  const double sky = std::max(max_channel(scene.background.bottom), max_channel(scene.background.top));
+  return std::max(sky, local / (1.0 - passed_on));
+}
+
+FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {
+  FeatureSet f;
+  for (const CompiledBody& body : scene.bodies) {
+    switch (body.kind) {
+      case BodyKind::sphere: f.add(Feature::spheres); break;
+      case BodyKind::box: f.add(Feature::boxes); break;
+      case BodyKind::plane: f.add(Feature::planes); break;
+      case BodyKind::mesh:
+        f.add(Feature::triangles);
+        if (!body.mesh->corner_normals.empty()) f.add(Feature::smooth_normals);
+        break;
+    }
+  }
+  bool one_priority = true;
+  for (const CompiledMaterial& m : scene.materials) {
+    if (m.is_specular && !scene.lights.empty()) f.add(Feature::specular);
+    if (m.is_reflective) f.add(Feature::reflection);
+    if (m.is_transmissive) {
+      f.add(Feature::transmission);
+      if (m.source.fresnel) f.add(Feature::fresnel);
+      if (m.source.priority != 0) one_priority = false;
+    }
+    if (std::holds_alternative<Checker>(m.source.diffuse) || std::holds_alternative<Checker>(m.source.ambient)) {
+      f.add(Feature::checker);
+    }
+  }
+  if (f.has(Feature::transmission) && !one_priority) f.add(Feature::nested_media);
+  for (const CompiledLight& light : scene.lights) {
+    f.add(light.kind == LightKind::point ? Feature::point_lights : Feature::directional_lights);
+    if (light.kind == LightKind::point && scene.attenuation.mode != AttenuationMode::none) f.add(Feature::attenuation);
+    if (light.shadow) f.add(Feature::shadows);
+  }
+  if (f.has(Feature::shadows) && f.has(Feature::transmission)) f.add(Feature::tinted_shadows);
+
+  const auto say = [&](Feature feature, const char* why) {
+    if (!f.has(feature)) left_out.push_back({"feature " + std::string(feature_name(feature)), why});
+  };
+  say(Feature::spheres, "the scene has no sphere");
+  say(Feature::boxes, "the scene has no cube, box or board");
+  say(Feature::planes, "the scene has no infinite plane");
+  say(Feature::triangles, "the scene has no mesh and no chess piece");
+  say(Feature::checker, "no material has a checker");
+  say(Feature::specular, "no lit material has a specular part");
+  say(Feature::point_lights, "no point light is alive");
+  say(Feature::directional_lights, "no directional light is alive");
+  say(Feature::shadows, "no living light casts shadows");
+  say(Feature::reflection, "no material reflects");
+  say(Feature::transmission, "no material is transparent: shadow rays stop at the first hit");
+  return f;
+}
+
+}  // namespace tilelight

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "renderer/compile/plan.h"
+
+namespace tilelight {
+
+std::string plan_json(const Plan& plan) {
+  using Json = nlohmann::ordered_json;
+  const auto vec = [](const Vec3& v) { return Json{v.x, v.y, v.z}; };
+  Json features = Json::array();
+  for (int i = 0; i < kFeatureCount; ++i) {
+    const auto feature = static_cast<Feature>(i);
+    if (plan.features.has(feature)) features.push_back(feature_name(feature));
+  }
+  Json left_out = Json::array();
+  for (const LeftOut& item : plan.left_out) left_out.push_back({{"what", item.what}, {"why", item.why}});
+  const Json out = {
+      {"features", features},
+      {"kernel", plan.kernel},
+      {"isa", plan.isa},
+      {"left_out", left_out},
+      {"bodies", plan.bodies},
+      {"lights", plan.lights},
+      {"triangles", {{"stored", plan.triangles_stored}, {"instanced", plan.triangles_instanced}}},
+      {"memory_bytes", plan.memory_bytes},
+      {"bounds", {{"min", vec(plan.bounds_min)}, {"max", vec(plan.bounds_max)}}},
+      {"compile_ms", plan.compile_ms},
+      {"plan_ms", plan.plan_ms},
+      {"predicted_mrays", plan.predicted_mrays}};
+  return out.dump();
+}
+
+}  // namespace tilelight

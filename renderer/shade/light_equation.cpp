@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/shade/light_equation.h"
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/base/elementary.h"
+
+namespace tilelight {
+namespace {
+
+// distance: normalised; K is in the user's units.
+double attenuation_factor(const CompiledScene& scene, double distance) {
+  const double d = distance * scene.units;
+  switch (scene.attenuation.mode) {
+    case AttenuationMode::linear: return 1.0 / (d + scene.attenuation.k);
+    case AttenuationMode::inverse_square: return 1.0 / (d * d + scene.attenuation.k);
+    case AttenuationMode::none: return 1.0;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess) {
+  if (!(glm::dot(mirrored, to_viewer) > 0.0)) return 0.0;
+  const Vec3 apart = mirrored - to_viewer;
+  const double exponent = shininess * elementary::log1p(-0.5 * glm::dot(apart, apart));
+  constexpr double kInvisible = -60.0;  // e^-60 of any displayable light is nothing
+  return exponent < kInvisible ? 0.0 : elementary::exp(exponent);
+}
+
+LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
+                         const Vec3& to_viewer) {
+  LightSample out;
+  double factor = 1.0;
+  if (light.kind == LightKind::directional) {
+    out.to_light = light.to_light;
+    out.distance = std::numeric_limits<double>::infinity();
+  } else {
+    const Vec3 path = light.position - surface.position;
+    out.distance = glm::length(path);
+    if (!(out.distance > 0.0)) return out;  // the light lies on the point: no direction, no light
+    out.to_light = path / out.distance;
+    factor = attenuation_factor(scene, out.distance);
+  }
+  const double cosine = glm::dot(surface.normal, out.to_light);
+  if (!(cosine > 0.0) || !(glm::dot(surface.geometric_normal, out.to_light) > 0.0)) return out;
+  out.is_lit = true;
+  out.arriving = light.intensity * factor;
+  out.diffuse = out.arriving * surface.diffuse * cosine;
+  if (surface.material->is_specular) {
+    const Vec3 mirrored = 2.0 * cosine * surface.normal - out.to_light;
+    const Material& m = surface.material->source;
+    out.specular = out.arriving * m.specular * phong_lobe(mirrored, to_viewer, m.shininess);
+  }
+  return out;
+}
+
+}  // namespace tilelight

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scatter: the mirror and the refracted ray that leave a surface, and their weights. Pure; any thread.
+#pragma once
+
+#include "renderer/shade/media.h"
+#include "renderer/shade/surface.h"
+
+namespace tilelight {
+
+// The mirror direction about the shading normal; about the geometric one where that would lead under the surface.
+Vec3 mirror_direction(const Surface& surface, const Vec3& incoming);
+
+struct Scatter {
+  Vec3 mirrored{0.0}, refracted{0.0};          // unit
+  Color mirror_weight{0.0}, refract_weight{0.0};
+  bool is_unseen = false;  // the media on both sides are the same: the ray goes on as if nothing were there
+};
+
+// A surface that only reflects: kr.
+Scatter scatter_opaque(const Surface& surface, const Vec3& incoming);
+
+// A transparent surface. ior_before, ior_after: of the media on this and on the other side; equal for thin surfaces.
+// Snell's law; total internal reflection sends kr + kt into the mirror direction. With Material::fresnel the share F
+// of kt is reflected (unpolarised dielectric).
+Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after);
+
+}  // namespace tilelight

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/shade/surface.h"
+
+#include <cmath>
+
+namespace tilelight {
+namespace {
+
+struct LocalPoint {
+  Vec3 position{0.0};
+  Vec3 geometric{0.0};  // outward, any length
+  Vec3 shading{0.0};    // outward, any length
+};
+
+LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
+  const auto& tri = mesh.triangles[hit.prim];
+  const Vec3 &a = mesh.positions[tri[0]], &b = mesh.positions[tri[1]], &c = mesh.positions[tri[2]];
+  const double b2 = 1.0 - hit.b0 - hit.b1;
+  LocalPoint out;
+  out.position = hit.b0 * a + hit.b1 * b + b2 * c;
+  out.geometric = glm::cross(b - a, c - a);
+  if (mesh.corner_normals.empty()) {
+    out.shading = out.geometric;
+  } else {
+    const auto& n = mesh.corner_normals[hit.prim];
+    out.shading = hit.b0 * mesh.normals[n[0]] + hit.b1 * mesh.normals[n[1]] + b2 * mesh.normals[n[2]];
+  }
+  return out;
+}
+
+// The hit in the body's local space, reprojected, so that its error is that of the primitive and not of the ray's length.
+LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit) {
+  if (body.kind == BodyKind::mesh) return triangle_point(*body.mesh, hit);
+  LocalPoint out;
+  out.position = transform_point(body.local_from_world, ray.origin) +
+                 hit.t * transform_vector(body.local_from_world, ray.direction);
+  switch (body.kind) {
+    case BodyKind::sphere:
+      out.position = glm::normalize(out.position);
+      out.geometric = out.position;
+      break;
+    case BodyKind::box: {
+      const int axis = static_cast<int>(hit.prim / 2);
+      const double side = hit.prim % 2 ? 1.0 : -1.0;
+      out.position[axis] = side * body.half[axis];
+      out.geometric[axis] = side;
+      break;
+    }
+    case BodyKind::plane:
+      out.position.y = 0.0;
+      out.geometric.y = 1.0;
+      break;
+    case BodyKind::mesh: break;
+  }
+  out.shading = out.geometric;
+  return out;
+}
+
+// Cells of a checker: on curved spheres in three dimensions, else on the two axes other than the dominant one of the
+// geometric normal, all in the pattern frame.
+Color checker_color(const Checker& checker, const CompiledBody& body, const LocalPoint& p) {
+  const Vec3 place = transform_point(body.pattern_from_local, p.position) / checker.size;
+  double cells = 0.0;
+  int dominant = -1;
+  if (body.kind != BodyKind::sphere) {
+    // The pattern frame differs from the local one by a uniform scale and a shift, so normals keep their direction.
+    const Vec3 n = glm::abs(p.geometric);
+    dominant = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != dominant) cells += std::floor(place[axis]);
+  }
+  return cells - 2.0 * std::floor(0.5 * cells) == 0.0 ? checker.a : checker.b;
+}
+
+Color paint_color(const Paint& paint, const CompiledBody& body, const LocalPoint& p) {
+  if (const auto* color = std::get_if<Color>(&paint)) return *color;
+  return checker_color(std::get<Checker>(paint), body, p);
+}
+
+}  // namespace
+
+Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
+  const CompiledBody& body = scene.bodies[hit.body];
+  const LocalPoint local = local_point(body, ray, hit);
+  Surface out;
+  out.body = &body;
+  out.material = &scene.materials[body.material];
+  out.here = {hit.body, hit.prim};
+  out.position = transform_point(body.world_from_local, local.position);
+  out.geometric_normal = glm::normalize(body.world_from_normal * local.geometric);
+  out.normal = glm::normalize(body.world_from_normal * local.shading);
+  out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
+  if (!out.from_outside) {
+    out.geometric_normal = -out.geometric_normal;
+    out.normal = -out.normal;
+  }
+  out.ambient = paint_color(out.material->source.ambient, body, local);
+  out.diffuse = paint_color(out.material->source.diffuse, body, local);
+  return out;
+}
+
+}  // namespace tilelight

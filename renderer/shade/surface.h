@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surface: a hit made ready for the light equation: place, normals turned to the viewer, material at the place.
+#pragma once
+
+#include "renderer/compile/compiled_scene.h"
+#include "renderer/shade/ray.h"
+
+namespace tilelight {
+
+struct Surface {
+  Vec3 position{0.0};          // normalised world, reprojected onto the primitive
+  Vec3 geometric_normal{0.0};  // unit, towards the viewer
+  Vec3 normal{0.0};            // for shading: unit, on the side of the geometric one
+  bool from_outside = true;    // the ray meets the outer side: sign of Ng . d
+  const CompiledBody* body = nullptr;
+  const CompiledMaterial* material = nullptr;
+  Color ambient{0.0}, diffuse{0.0};  // at this place
+  Departure here;              // for rays that leave from here
+};
+
+Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
+
+}  // namespace tilelight
