@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/measure/reference_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/base/elementary.h"
+
+namespace tilelight::reference {
+namespace {
+
+// A light as seen from a point.
+struct Incidence {
+  Vec3 to_light;    // unit
+  double distance;  // infinite for directional lights
+  double factor;    // of attenuation
+};
+
+double attenuation_factor(const Attenuation& attenuation, double distance) {
+  switch (attenuation.mode) {
+    case AttenuationMode::linear: return 1.0 / (distance + attenuation.k);
+    case AttenuationMode::inverse_square: return 1.0 / (distance * distance + attenuation.k);
+    case AttenuationMode::none: return 1.0;
+  }
+  return 1.0;
+}
+
+// None for a light in the very point: it has no direction.
+std::optional<Incidence> incidence(const Light& light, const Vec3& point, const Attenuation& attenuation) {
+  if (light.kind == LightKind::directional)
+    return Incidence{-glm::normalize(light.direction), std::numeric_limits<double>::infinity(), 1.0};
+  const Vec3 way = light.position - point;
+  const double distance = glm::length(way);
+  if (distance == 0.0) return std::nullopt;
+  return Incidence{way / distance, distance, attenuation_factor(attenuation, distance)};
+}
+
+bool is_odd(double whole) { return whole - 2.0 * std::floor(0.5 * whole) == 1.0; }
+
+}  // namespace
+
+ShadingPoint shading_point(const ReferenceBody& body, const Hit& hit, const Vec3& direction) {
+  const SurfacePoint surface = surface_at(body, hit);
+  const bool is_inside = glm::dot(surface.geometric, direction) > 0.0;
+  const double turn = is_inside ? -1.0 : 1.0;
+  return {hit, surface.point, -direction, turn * surface.geometric, turn * surface.shading, is_inside};
+}
+
+double phong_lobe(const Vec3& r, const Vec3& v, double n) {
+  const Vec3 apart = r - v;
+  return elementary::exp(n * elementary::log1p(-0.5 * glm::dot(apart, apart)));
+}
+
+Color paint_at(const ReferenceBody& body, const Hit& hit, const Paint& paint) {
+  if (const Color* color = std::get_if<Color>(&paint)) return *color;
+  const Checker& checker = std::get<Checker>(paint);
+  const PatternPoint pattern = pattern_at(body, hit);
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != pattern.ignored_axis) sum += std::floor(pattern.point[axis] / checker.size);
+  return is_odd(sum) ? checker.b : checker.a;
+}
+
+Color local_light(const ReferenceScene& scene, const ShadingPoint& at, bool shadows) {
+  const ReferenceBody& body = scene.body(at.hit.body);
+  const Material& material = scene.material(at.hit.body);
+  const Color kd = paint_at(body, at.hit, material.diffuse);
+  Color sum = scene.ambient() * paint_at(body, at.hit, material.ambient);
+  for (const Light& light : scene.lights()) {
+    const auto in = incidence(light, at.point, scene.attenuation());
+    if (!in || glm::dot(at.geometric, in->to_light) <= 0.0) continue;  // it faces away: in its own shadow
+    const double n_l = glm::dot(at.shading, in->to_light);
+    if (n_l <= 0.0) continue;
+    Color reflected = kd * n_l;
+    const Vec3 mirrored = glm::normalize(2.0 * n_l * at.shading - in->to_light);
+    if (glm::dot(mirrored, at.to_viewer) > 0.0)
+      reflected += material.specular * phong_lobe(mirrored, at.to_viewer, material.shininess);
+    if (glm::all(glm::equal(reflected, Color(0.0)))) continue;
+    Color visible(1.0);
+    if (shadows && light.shadow) {
+      const Ray ray = scene.ray_from(at.hit, in->to_light, Coincident::before);
+      visible = scene.transmittance(ray, in->distance);
+    }
+    sum += visible * light.color * light.intensity * in->factor * reflected;
+  }
+  return sum;
+}
+
+Color background_at(const Background& background, const Vec3& direction) {
+  return glm::mix(background.bottom, background.top, 0.5 * (1.0 + direction.y));
+}
+
+}  // namespace tilelight::reference
