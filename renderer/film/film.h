@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film: the sum of the samples of every pixel, linear RGB. Work items write disjoint TileViews from many threads without
-// locks; the film adds samples in index order, so any split of the same total gives the same bytes.
+// Film: the sum of the samples of every pixel, linear RGB. Work items write disjoint TileViews from many threads
+// without locks; the film adds samples in index order, so any split of the same total gives the same bytes.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace tilelight {
 
 enum class ImageFormat { png, jpeg, exr };
 
-std::optional<ImageFormat> image_format_from_extension(std::string_view path);  // "a.png" -> png
+std::optional<ImageFormat> image_format_from_extension(std::string_view path);         // "a.png" -> png
 std::optional<ImageFormat> image_format_from_media_type(std::string_view media_type);  // "image/png" -> png
 std::string_view media_type(ImageFormat format);
 
@@ -24,11 +24,16 @@ std::string_view media_type(ImageFormat format);
 // unclamped. The same image gives the same bytes.
 Result<std::string> encode_image(const Image& image, double exposure_stops, ImageFormat format);
 
-// Reads 8-bit RGB back (for tests and tools). Dimensions are checked against max_pixels before pixels are read.
+// Reads 8-bit sRGB back (for tests and tools). Grey is spread over RGB, alpha is dropped, an EXR's linear values are
+// displayed at exposure 0. Only the declared format's decoder sees the bytes. Errors: bad_image, image_too_large;
+// dimensions are checked against max_pixels before memory for pixels is taken.
 struct Rgb8Image {
   int width = 0, height = 0;
   std::vector<uint8_t> rgb;
 };
 Result<Rgb8Image> decode_image(std::string_view bytes, ImageFormat format, int64_t max_pixels);
+
+// The same as linear light.
+Result<Image> decode_linear(std::string_view bytes, ImageFormat format, int64_t max_pixels);
 
 }  // namespace tilelight

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From linear light to what a display shows: clamp(I * 2^exposure, 0, 1), then the sRGB curve (IEC 61966-2-1), no other.
+// From linear light to what a display shows: clamp(I * 2^exposure, 0, 1), then the sRGB curve (IEC 61966-2-1), no
+// other.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <thread>
+
+#include "renderer/film/image_io.h"
+#include "renderer/film/tone.h"
+
+namespace tilelight {
+namespace {
+
+// A smooth picture with values beyond both ends of the displayed range.
+Image gradient(int width, int height) {
+  Image image{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) image.rgb.push_back(static_cast<float>(1.5 * x / width - 0.1 + 0.2 * c * y / height));
+  return image;
+}
+
+TEST(ImageIo, PngKeepsEveryByte) {
+  const Image image = gradient(97, 61);
+  const auto bytes = encode_image(image, -0.5, ImageFormat::png);
+  ASSERT_TRUE(bytes) << bytes.error().detail;
+  const auto back = decode_image(*bytes, ImageFormat::png, 1 << 20);
+  ASSERT_TRUE(back) << back.error().detail;
+  EXPECT_EQ(back->width, 97);
+  EXPECT_EQ(back->height, 61);
+  EXPECT_EQ(back->rgb, to_srgb8(image, -0.5));
+}
+
+TEST(ImageIo, PngSaysThatItIsSrgbAndHoldsNoTime) {
+  const auto bytes = encode_image(gradient(8, 8), 0.0, ImageFormat::png);
+  ASSERT_TRUE(bytes);
+  EXPECT_NE(bytes->find("sRGB"), std::string::npos);
+  EXPECT_EQ(bytes->find("tIME"), std::string::npos);
+}
+
+TEST(ImageIo, JpegIsCloseOnASmoothPicture) {
+  const Image image = gradient(128, 64);
+  const auto bytes = encode_image(image, 0.0, ImageFormat::jpeg);
+  ASSERT_TRUE(bytes) << bytes.error().detail;
+  const auto back = decode_image(*bytes, ImageFormat::jpeg, 1 << 20);
+  ASSERT_TRUE(back) << back.error().detail;
+  const auto expected = to_srgb8(image, 0.0);
+  ASSERT_EQ(back->rgb.size(), expected.size());
+  double square = 0.0;
+  for (size_t i = 0; i < expected.size(); ++i) square += std::pow(back->rgb[i] - expected[i], 2.0);
+  EXPECT_LT(std::sqrt(square / expected.size()), 3.0);
+}
+
+TEST(ImageIo, ExrKeepsLinearValuesBeyondTheDisplayToHalfPrecision) {
+  Image image = gradient(40, 30);
+  image.rgb[0] = 1000.0f;
+  const auto bytes = encode_image(image, 1.0, ImageFormat::exr);
+  ASSERT_TRUE(bytes) << bytes.error().detail;
+  const auto back = decode_linear(*bytes, ImageFormat::exr, 1 << 20);
+  ASSERT_TRUE(back) << back.error().detail;
+  for (size_t i = 0; i < image.rgb.size(); ++i)
+    ASSERT_NEAR(back->rgb[i], 2.0f * image.rgb[i], std::fabs(image.rgb[i]) * 0x1p-10 + 1e-7) << i;
+}
+
+TEST(ImageIo, TheSameImageGivesTheSameBytesOnAnyThread) {
+  const Image image = gradient(64, 48);
+  for (ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+    const auto here = encode_image(image, 0.0, format);
+    ASSERT_TRUE(here);
+    std::string there;
+    std::jthread([&] { there = *encode_image(image, 0.0, format); }).join();
+    EXPECT_TRUE(*here == there) << media_type(format);
+  }
+}
+
+TEST(ImageIo, ReadsBackWhatLinearLightItWrote) {
+  const Image image{2, 1, {0.0f, 0.5f, 1.0f, 0.25f, 0.75f, 0.01f}};
+  const auto back = decode_linear(*encode_image(image, 0.0, ImageFormat::png), ImageFormat::png, 2);
+  ASSERT_TRUE(back);
+  for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(back->rgb[i], image.rgb[i], 0.005) << i;
+}
+
+TEST(ImageIo, RefusesAnImageThatIsTooLargeBeforeReadingIt) {
+  auto bytes = *encode_image(gradient(16, 16), 0.0, ImageFormat::png);
+  EXPECT_TRUE(decode_image(bytes, ImageFormat::png, 256));
+  EXPECT_EQ(decode_image(bytes, ImageFormat::png, 255).error().code, "image_too_large");
+  EXPECT_EQ(decode_image(*encode_image(gradient(16, 16), 0.0, ImageFormat::exr), ImageFormat::exr, 255).error().code,
+            "image_too_large");
+}
+
+TEST(ImageIo, RefusesBytesThatAreNotOfTheDeclaredFormat) {
+  const auto png = *encode_image(gradient(16, 16), 0.0, ImageFormat::png);
+  for (ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+    EXPECT_FALSE(decode_image("", format, 1 << 20)) << media_type(format);
+    EXPECT_FALSE(decode_image("not an image at all, only some words", format, 1 << 20)) << media_type(format);
+    if (format != ImageFormat::png) {
+      EXPECT_FALSE(decode_image(png, format, 1 << 20)) << media_type(format);
+    }
+  }
+  EXPECT_FALSE(decode_image(std::string_view(png).substr(0, png.size() / 2), ImageFormat::png, 1 << 20));
+}
+
+TEST(ImageIo, FormatsAreNamedByExtensionAndMediaType) {
+  EXPECT_EQ(image_format_from_extension("a/b.c/d.PNG"), ImageFormat::png);
+  EXPECT_EQ(image_format_from_extension("x.jpg"), ImageFormat::jpeg);
+  EXPECT_EQ(image_format_from_extension("x.jpeg"), ImageFormat::jpeg);
+  EXPECT_EQ(image_format_from_extension("x.exr"), ImageFormat::exr);
+  EXPECT_EQ(image_format_from_extension("x.gif"), std::nullopt);
+  EXPECT_EQ(image_format_from_extension("png"), std::nullopt);
+  EXPECT_EQ(image_format_from_extension("x."), std::nullopt);
+  for (ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr})
+    EXPECT_EQ(image_format_from_media_type(media_type(format)), format);
+  EXPECT_EQ(image_format_from_media_type("text/html"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace tilelight
