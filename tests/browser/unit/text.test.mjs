@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { parseServerTiming } from '../../../web/js/api.js';
+import { findPosition, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
+import { curlCommand, decodeLink, encodeLink, stillDocument } from '../../../web/js/share.js';
+
+const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
+const kText = `{
+  "objects": [
+    {"type": "sphere"},
+    {"type": "chess_position",   "fen" : "${kStart}"}
+  ],
+  "camera": {"position": [1, 2, 3]}
+}
+`;
+const kCamera = { type: 'perspective', fov_y_deg: 31.5, position: [1.25, -2, 3e-7], target: [0, 0.5, 0], up: [0, 1, 0] };
+
+test('a new FEN changes nothing else in the text', () => {
+  assert.equal(withFen(kText, '8/8/8/8/8/8/8/K6k'), kText.replace(kStart, '8/8/8/8/8/8/8/K6k'));
+});
+
+test('a FEN with signs that patterns and strings care about arrives as typed', () => {
+  const odd = '$& "quote" \\ $1';
+  assert.equal(findPosition(JSON.parse(withFen(kText, odd))).fen, odd);
+});
+
+test('a position without a FEN gets one', () => {
+  const text = '{"objects": [{"type": "chess_position"}]}';
+  assert.equal(findPosition(JSON.parse(withFen(text, '8/8/8/8/8/8/8/8'))).fen, '8/8/8/8/8/8/8/8');
+});
+
+test('an edit keeps the camera unless it is the camera that was edited', () => {
+  assert.ok(sameCamera(kText, kText.replace('sphere', 'cube')));
+  assert.ok(!sameCamera(kText, kText.replace('[1, 2, 3]', '[1, 2, 4]')));
+});
+
+test('a line and column lead to their place, and a token is marked whole', () => {
+  const start = offsetOf(kText, 3, 6);
+  assert.equal(kText.slice(start, tokenEnd(kText, start)), '"type"');
+  assert.equal(offsetOf(kText, 99, 1), kText.length);
+  assert.equal(offsetOf('ab\ncd', 1, 40), 2);
+  assert.equal(tokenEnd('-1.5e3, 2', 0), 6);
+});
+
+test('a link brings back scene, text and camera', async () => {
+  const named = await decodeLink(await encodeLink({ scene: 'opening', camera: kCamera }));
+  assert.equal(named.scene, 'opening');
+  assert.deepEqual(named.camera, kCamera);
+  const written = await decodeLink(await encodeLink({ text: kText, camera: kCamera }));
+  assert.equal(written.text, kText);
+  const flat = { type: 'orthographic', height: 7, position: [0, 9, 1], target: [0, 0, 0], up: [0, 0, -1] };
+  assert.deepEqual((await decodeLink(await encodeLink({ scene: 'x', camera: flat }))).camera, flat);
+});
+
+test('a broken link is no link', async () => {
+  for (const hash of ['', '#', '#json=%%%', '#json=AAAA', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
+    assert.deepEqual(await decodeLink(hash), { scene: null, text: null, camera: null });
+  }
+});
+
+test('what is sent for a still picture keeps the exposure and takes camera and size from the window', () => {
+  const text = '{"image": {"width": 9, "height": 9, "exposure": 1}, "objects": []}';
+  const document = stillDocument(text, { camera: kCamera, image: { width: 640, height: 360 } });
+  assert.deepEqual(document, { image: { width: 640, height: 360, exposure: 1 }, objects: [], camera: kCamera });
+});
+
+test('a curl command holds the scene where the shell changes nothing', () => {
+  const command = curlCommand('http://127.0.0.1:1', { name: "it's $HOME `x`" });
+  assert.match(command, /<<'SCENE'\n\{"name":"it's \$HOME `x`"\}\nSCENE\n$/);
+});
+
+test('Server-Timing is read by name', () => {
+  assert.deepEqual(parseServerTiming('parse;dur=0.4, render;desc="a";dur=12.5'), { parse: 0.4, render: 12.5 });
+  assert.deepEqual(parseServerTiming(null), {});
+});

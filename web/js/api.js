@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The server's HTTP interface, as far as the page uses it. Every failure is one of two: a Problem, which the server
+// explained, or Unreachable.
+
+const kJson = { 'Content-Type': 'application/json' };
+
+// What the server said was wrong (RFC 9457); `errors` has one entry a mistake in a scene.
+export class Problem extends Error {
+  constructor(status, body, retryAfterS) {
+    super(body.detail || body.title || `The server answered ${status}.`);
+    this.status = status;
+    this.title = body.title ?? '';
+    this.errors = Array.isArray(body.errors) ? body.errors : [];
+    if (this.errors.length === 0 && body.line) this.errors = [{ ...body, pointer: body.pointer ?? '' }];
+    this.retryAfterS = retryAfterS;
+  }
+}
+
+export class Unreachable extends Error {
+  constructor() {
+    super('The server cannot be reached.');
+  }
+}
+
+async function call(path, options) {
+  let response;
+  try {
+    response = await fetch(path, options);
+  } catch (error) {
+    if (error.name === 'AbortError') throw error;
+    throw new Unreachable();
+  }
+  if (response.ok) return response;
+  const body = await response.json().catch(() => ({}));
+  throw new Problem(response.status, body, Number(response.headers.get('Retry-After')) || 1);
+}
+
+export async function listScenes() {
+  return (await call('/scenes/index.json')).json();
+}
+
+export async function loadScene(file) {
+  return (await call(`/scenes/${encodeURIComponent(file)}`)).text();
+}
+
+// `sceneText` goes as it was written, so that lines and columns of an answer are those of the editor.
+export async function openSession(sceneText) {
+  return (await call('/v1/sessions', { method: 'POST', headers: kJson, body: sceneText })).json();
+}
+
+export async function closeSession(id) {
+  await call(`/v1/sessions/${id}`, { method: 'DELETE', keepalive: true });
+}
+
+export async function putView(id, view) {
+  await call(`/v1/sessions/${id}/view`, { method: 'PUT', headers: kJson, body: JSON.stringify(view) });
+}
+
+// Waits for a frame newer than number `after`; null when none came in time.
+export async function nextFrame(id, after, format, signal) {
+  const response = await call(`/v1/sessions/${id}/frame?after=${after}`, { headers: { Accept: format }, signal });
+  if (response.status === 204) return null;
+  return {
+    number: Number(response.headers.get('Frame-Seq')),
+    viewSeq: Number(response.headers.get('View-Seq')),
+    isFinal: response.headers.get('Frame-Final') === '?1',
+    spp: Number(/(?:^|[ ,])spp=(\d+)/.exec(response.headers.get('Render-Info') ?? '')?.[1] ?? 0),
+    timings: parseServerTiming(response.headers.get('Server-Timing')),
+    blob: await response.blob(),
+  };
+}
+
+// A finished picture of a whole scene document. Takes as long as it takes: a render that the server turned into a job
+// is waited for.
+export async function renderImage(document, format = 'image/png') {
+  const headers = { ...kJson, Accept: format, Prefer: 'wait=60' };
+  const response = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(document) });
+  if (response.status !== 202) return response.blob();
+  const job = response.headers.get('Location');
+  for (;;) {
+    const status = await (await call(job, { headers: { Prefer: 'wait=30' } })).json();
+    if (status.state === 'done') return (await call(`${job}/image`, { headers: { Accept: format } })).blob();
+    if (status.state !== 'queued' && status.state !== 'running') {
+      throw new Problem(409, { detail: status.error?.detail ?? `The render was ${status.state}.` });
+    }
+  }
+}
+
+// {name: milliseconds} of a Server-Timing header.
+export function parseServerTiming(header) {
+  const timings = {};
+  for (const entry of (header ?? '').split(',')) {
+    const match = /^\s*([\w-]+)\s*;.*\bdur=([\d.]+)/.exec(entry);
+    if (match) timings[match[1]] = Number(match[2]);
+  }
+  return timings;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Making elements. What comes from outside enters as text, never as markup.
+
+export const byId = (id) => document.getElementById(id);
+
+// el('p', {class: 'x', hidden: false}, 'text', child): strings become text nodes; an attribute of null or false is left out.
+export function el(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    element.setAttribute(name, value === true ? '' : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+export function icon(name) {
+  const kSvg = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(kSvg, 'svg');
+  svg.setAttribute('class', 'icon');
+  svg.setAttribute('aria-hidden', 'true');
+  const use = document.createElementNS(kSvg, 'use');
+  use.setAttribute('href', `#icon-${name}`);
+  svg.append(use);
+  return svg;
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text field for the scene with line numbers and marks. Mistakes stand where they are: a dot in the gutter, the line
+// tinted, the token underlined; below, each mistake in words, and a click on it leads there.
+import { byId, el } from './dom.js';
+import { offsetOf, tokenEnd } from './scene_text.js';
+
+const kTypingMs = 450;  // a pause in typing after which the scene is tried
+
+export class Editor {
+  #area = byId('editor-text');
+  #numbers = document.querySelector('.editor-numbers');
+  #marks = document.querySelector('.editor-marks');
+  #list = byId('editor-errors');
+  #state = byId('editor-state');
+  #lines = 0;
+  #timer = 0;
+
+  // `edited(text)` is called when typing rests.
+  constructor({ edited }) {
+    this.#area.addEventListener('input', () => {
+      this.#number();
+      this.#say('');
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(() => edited(this.#area.value), kTypingMs);
+    });
+    this.#area.addEventListener('scroll', () => this.#follow());
+  }
+
+  // Text that is being typed in stays as it is.
+  setText(text) {
+    if (this.#area.value !== text && document.activeElement !== this.#area) {
+      clearTimeout(this.#timer);
+      this.#area.value = text;
+      this.#area.setSelectionRange(0, 0);
+      this.#area.scrollTo(0, 0);
+    }
+    this.#number();
+    this.showErrors([]);
+  }
+
+  // `errors` as the server tells them: {pointer, detail, allowed, hint, line, column}.
+  showErrors(errors) {
+    this.#area.setAttribute('aria-invalid', String(errors.length > 0));
+    this.#list.hidden = errors.length === 0;
+    this.#list.replaceChildren(...errors.map((error) => el('li', {}, this.#describe(error))));
+    this.#marks.replaceChildren(...errors.filter(({ line }) => line).flatMap((error) => this.#mark(error)));
+    this.#numbers.querySelectorAll('.dot').forEach((dot) => dot.remove());
+    for (const { line } of errors) if (line) this.#numbers.append(placed('span', 'dot', line));
+    const plural = errors.length === 1 ? '1 mistake' : `${errors.length} mistakes`;
+    this.#say(errors.length ? plural : 'Drawn', errors.length > 0);
+    this.#follow();
+  }
+
+  #say(words, isBad = false) {
+    this.#state.textContent = words;
+    this.#state.classList.toggle('is-bad', isBad);
+  }
+
+  #describe(error) {
+    const place = error.line ? `Line ${error.line}, column ${error.column ?? 1}` : error.pointer || 'Scene';
+    const button = el('button', { class: 'error' },
+      el('span', { class: 'error-place' }, place, ...(error.line && error.pointer ? [el('code', {}, error.pointer)] : [])),
+      el('span', { class: 'error-detail' }, error.detail ?? ''),
+      ...(error.hint ? [el('span', { class: 'error-hint' }, error.hint)] : []));
+    button.addEventListener('click', () => this.#jump(error));
+    return button;
+  }
+
+  #mark({ line, column }) {
+    const text = this.#area.value;
+    const start = offsetOf(text, line, column);
+    const width = Math.max(1, tokenEnd(text, start) - start);
+    const token = placed('span', 'mark-token', line);
+    token.style.left = `${(column ?? 1) - 1}ch`;
+    token.style.width = `${width}ch`;
+    return [placed('span', 'mark-line', line), token];
+  }
+
+  #jump({ line, column }) {
+    if (!line) return;
+    const text = this.#area.value;
+    const start = offsetOf(text, line, column);
+    this.#area.focus();
+    this.#area.setSelectionRange(start, tokenEnd(text, start));
+    const lineHeight = parseFloat(getComputedStyle(this.#area).lineHeight);
+    this.#area.scrollTop = Math.max(0, (line - 1) * lineHeight - this.#area.clientHeight / 3);
+    this.#area.scrollLeft = 0;
+  }
+
+  #number() {
+    const lines = this.#area.value.split('\n').length;
+    if (lines === this.#lines) return;
+    this.#lines = lines;
+    const text = Array.from({ length: lines }, (_, i) => i + 1).join('\n');
+    this.#numbers.replaceChildren(text);
+  }
+
+  #follow() {
+    const { scrollTop, scrollLeft } = this.#area;
+    this.#numbers.style.transform = `translateY(${-scrollTop}px)`;
+    this.#marks.style.transform = `translate(${-scrollLeft}px, ${-scrollTop}px)`;
+  }
+}
+
+// An element at a line's height; the style sheet knows how high a line is.
+function placed(tag, name, line) {
+  const element = el(tag, { class: name });
+  element.style.setProperty('--line', String(line - 1));
+  return element;
+}

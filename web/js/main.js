@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wires the page: scenes and links in, the viewer in the middle, panels and commands around it.
+import * as api from './api.js';
+import { copy } from './clipboard.js';
+import { byId } from './dom.js';
+import { Editor } from './editor.js';
+import { FenField } from './fen.js';
+import { Panels } from './panels.js';
+import { showPlan } from './plan.js';
+import { findPosition, sameCamera, withFen } from './scene_text.js';
+import { ScenePicker } from './scenes.js';
+import { Superseded } from './session.js';
+import { curlCommand, decodeLink, encodeLink, stillDocument } from './share.js';
+import { showHint, Status } from './status.js';
+import { say } from './toast.js';
+import { Viewer } from './viewer.js';
+
+const status = new Status();
+const hideHint = showHint();
+const viewer = new Viewer(byId('picture'), {
+  api,
+  on: {
+    frame: (event) => status.show(event),
+    state: (name, problem) => status.state(name, problem),
+    moved: hideHint,
+  },
+});
+const panels = new Panels([
+  [{ button: 'scenes-button', panel: 'scenes-panel' }],
+  [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' }],
+]);
+const editor = new Editor({ edited: (text) => drawEdit(text) });
+const fenField = new FenField({ edited: (fen) => drawFen(fen) });
+
+// What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
+const shown = { file: null, title: 'Your scene', text: null };
+let picker = null;
+
+// Shows a scene in place of the present one; throws what the server has against it.
+async function open(text, { file = null, title = shown.title, camera = null }) {
+  status.restart();
+  const info = await viewer.open(text, camera);
+  const scene = JSON.parse(text);
+  Object.assign(shown, { file, title, text });
+  status.expect(scene.render);
+  byId('scene-title').textContent = file ? title : `${title}, edited`;
+  byId('picture').setAttribute('aria-label', `Picture: ${title}`);
+  document.title = `${title} · Tilelight`;
+  picker?.mark(file);
+  editor.setText(text);
+  fenField.show(findPosition(scene));
+  showPlan(byId('plan-body'), info);
+}
+
+// As open(), for a scene that somebody else wrote: what goes wrong is said in the notice.
+async function openOrExplain(load, options) {
+  try {
+    await open(await load(), options);
+  } catch (error) {
+    if (!(error instanceof Superseded)) status.broken(error.message, () => openOrExplain(load, options));
+  }
+}
+
+function pick(scene) {
+  history.replaceState(null, '', `#scene=${scene.file.replace(/\.json$/, '')}`);
+  openOrExplain(() => api.loadScene(scene.file), { file: scene.file, title: scene.title });
+  if (matchMedia('(max-width: 720px)').matches) panels.close('scenes-panel');
+}
+
+// Errors of a scene text that the user wrote, in the server's words; empty when it was drawn.
+async function tryText(text) {
+  const camera = shown.text && sameCamera(text, shown.text) ? viewer.camera : null;
+  try {
+    await open(text, { camera });
+    return [];
+  } catch (error) {
+    if (error instanceof Superseded) return null;
+    if (error instanceof api.Problem && error.errors.length) return error.errors;
+    return [{ pointer: '', detail: error.message }];
+  }
+}
+
+async function drawEdit(text) {
+  const errors = await tryText(text);
+  if (errors) editor.showErrors(errors);
+}
+
+async function drawFen(fen) {
+  const errors = await tryText(withFen(shown.text, fen));
+  if (errors) fenField.showError(errors[0]);
+}
+
+async function download() {
+  const button = byId('download-button');
+  button.setAttribute('aria-busy', 'true');
+  try {
+    const document_ = stillDocument(shown.text, viewer.still);
+    const url = URL.createObjectURL(await api.renderImage(document_));
+    const link = document.createElement('a');
+    const name = shown.title.toLowerCase().replace(/[^a-z0-9]+/g, '-');
+    link.href = url;
+    link.download = `tilelight-${name}-${document_.image.width}x${document_.image.height}.png`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 60_000);
+  } catch (error) {
+    say(error.message, 'warning');
+  }
+  button.removeAttribute('aria-busy');
+}
+
+async function copyLink() {
+  const scene = shown.file?.replace(/\.json$/, '');
+  const hash = await encodeLink({ scene, text: scene ? null : shown.text, camera: viewer.camera });
+  history.replaceState(null, '', hash);
+  await copy(location.href, 'Link');
+}
+
+function copyCurl() {
+  return copy(curlCommand(location.origin, stillDocument(shown.text, viewer.still)), 'curl command');
+}
+
+async function start() {
+  const link = await decodeLink(location.hash);
+  let scenes;
+  try {
+    scenes = await api.listScenes();
+  } catch (error) {
+    status.broken(error.message, start);
+    return;
+  }
+  picker = new ScenePicker({ api, list: byId('scene-list'), scenes, pick });
+  const wanted = scenes.find(({ file }) => file === `${link.scene}.json`) ?? scenes[0];
+  if (link.text) await openOrExplain(() => link.text, { title: 'Shared scene', camera: link.camera });
+  else await openOrExplain(() => api.loadScene(wanted.file), { ...wanted, camera: link.camera });
+}
+
+byId('scenes-panel').addEventListener('panel-open', () => picker?.drawThumbnails());
+byId('reset-button').addEventListener('click', () => viewer.reset());
+byId('link-button').addEventListener('click', copyLink);
+byId('curl-button').addEventListener('click', copyCurl);
+byId('download-button').addEventListener('click', download);
+addEventListener('pageshow', (event) => event.persisted && location.reload());
+start();

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan panel: what the scene uses, what was left out and why, and its size in the server.
+import { el } from './dom.js';
+
+const kCount = new Intl.NumberFormat('en');
+
+export function showPlan(container, info) {
+  const plan = info.plan ?? {};
+  container.replaceChildren(
+    block('In use', chips(plan.features ?? [])),
+    block('Left out', leftOut(plan.left_out ?? [])),
+    ...(info.warnings?.length ? [block('Worth a look', warnings(info.warnings))] : []),
+    block('In numbers', facts(plan)),
+  );
+}
+
+function block(title, ...content) {
+  return el('section', {}, el('h3', {}, title), ...content);
+}
+
+function words(name) {
+  return String(name).replaceAll('_', ' ');
+}
+
+function chips(names) {
+  if (names.length === 0) return el('p', { class: 'muted' }, 'Nothing beyond the plain ray.');
+  return el('ul', { class: 'chips' }, ...names.map((name) => el('li', {}, words(name))));
+}
+
+function leftOut(entries) {
+  if (entries.length === 0) return el('p', { class: 'muted' }, 'Nothing: this scene uses all there is.');
+  return el('dl', { class: 'left-out' },
+    ...entries.flatMap(({ what, why }) => [el('dt', {}, words(what)), el('dd', {}, why)]));
+}
+
+function warnings(entries) {
+  return el('ul', { class: 'warnings' },
+    ...entries.map(({ pointer, detail }) => el('li', {}, el('code', {}, pointer || '/'), ' ', detail)));
+}
+
+function facts(plan) {
+  const rows = [
+    ['Bodies', count(plan.bodies)],
+    ['Lights', count(plan.lights)],
+    ['Triangles', triangles(plan.triangles)],
+    ['Memory', bytes(plan.memory_bytes)],
+    ['Kernel', plan.kernel],
+    ['Instruction set', plan.isa],
+    ['Compiling', milliseconds(plan.compile_ms)],
+    ['Planning', milliseconds(plan.plan_ms)],
+    ['Rays ahead', plan.predicted_mrays === undefined ? null : `about ${plan.predicted_mrays.toPrecision(2)} million`],
+  ];
+  return el('dl', { class: 'facts' },
+    ...rows.filter(([, value]) => value).flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, String(value))]));
+}
+
+function count(n) {
+  return n === undefined ? null : kCount.format(n);
+}
+
+function triangles(of) {
+  if (!of) return null;
+  if (!of.instanced || of.instanced === of.stored) return kCount.format(of.stored);
+  return `${kCount.format(of.instanced)} drawn, ${kCount.format(of.stored)} stored`;
+}
+
+function bytes(n) {
+  if (n === undefined) return null;
+  if (n < 1024 * 1024) return `${Math.max(1, Math.round(n / 1024))} KiB`;
+  return `${(n / 1024 / 1024).toFixed(1)} MiB`;
+}
+
+function milliseconds(ms) {
+  return ms === undefined ? null : `${ms < 10 ? ms.toFixed(2) : Math.round(ms)} ms`;
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as its author wrote it: questions and small changes that leave the rest of the text alone. Pure.
+
+// The first chess position of a parsed scene: {fen, pointer}, or null.
+export function findPosition(scene) {
+  const index = (scene.objects ?? []).findIndex((object) => object?.type === 'chess_position');
+  if (index < 0) return null;
+  return { fen: scene.objects[index].fen ?? '', pointer: `/objects/${index}/fen`, index };
+}
+
+// The text with another FEN in its first chess position, in place where the old one can be found.
+export function withFen(text, fen) {
+  const scene = JSON.parse(text);
+  const position = findPosition(scene);
+  const quoted = escapeForPattern(JSON.stringify(position.fen));
+  const place = new RegExp(`("fen"\\s*:\\s*)${quoted}`);
+  if (place.test(text)) return text.replace(place, (_, key) => key + JSON.stringify(fen));
+  scene.objects[position.index].fen = fen;
+  return `${JSON.stringify(scene, null, 2)}\n`;
+}
+
+// Whether two scene texts ask for the same camera, so that an edit may keep the user's own.
+export function sameCamera(textA, textB) {
+  const camera = (text) => JSON.stringify(JSON.parse(text).camera ?? null);
+  try {
+    return camera(textA) === camera(textB);
+  } catch {
+    return false;
+  }
+}
+
+// Offset of (line, column), both from 1, in the text; its end if there is no such place.
+export function offsetOf(text, line, column) {
+  let start = 0;
+  for (let at = 1; at < line; ++at) {
+    const next = text.indexOf('\n', start);
+    if (next < 0) return text.length;
+    start = next + 1;
+  }
+  const end = text.indexOf('\n', start);
+  return Math.min(start + Math.max(0, (column ?? 1) - 1), end < 0 ? text.length : end);
+}
+
+// End of the JSON token that begins at `start`, for marking it.
+export function tokenEnd(text, start) {
+  const match = /^(?:"(?:[^"\\\n]|\\.)*"?|[-+.\w]+|[^\s])/.exec(text.slice(start, start + 400));
+  return start + (match ? match[0].length : 0);
+}
+
+function escapeForPattern(text) {
+  return text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
+}

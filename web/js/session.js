@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// An interactive session with the server: views go out, frames come back, and the newest view wins. A moving view waits
+// until the one before it was seen, so views never queue up; a still one goes at once. A session that expired, a server
+// that is busy or cannot be reached are lived through; the last wish is kept and sent again.
+import { Problem, Unreachable } from './api.js';
+
+export const kOverdueMs = 600;  // a moving view not seen by then is given up for a newer one
+const kBackoffMs = [500, 1000, 2000, 4000, 8000];
+
+// A later open() came before this one was answered.
+export class Superseded extends Error {}
+
+export class ViewSession {
+  #api;
+  #on;
+  #now;
+  #text = null;
+  #id = null;
+  #opens = 0;
+  #wanted = { seq: 0 };  // the newest view; its seq grows over all sessions, so an old frame is known by it
+  #sent = { seq: 0 };    // the view that the server has: {seq, moving, atMs}
+  #seenSeq = 0;          // the newest view of which a frame came
+  #isFinal = false;      // and that frame was its last
+  #frameNumber = 0;
+  #polling = null;       // AbortController of the wait for frames
+  #recovery = null;      // token of the attempt to go on after a failure
+
+  // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, latencyMs with the first frame
+  // of the newest; `on.overdue()` says that a moving view was given up; `on.state(name, problem)` is one of live, busy,
+  // offline, failed. `now` is in milliseconds.
+  constructor({ api, on, now = () => performance.now() }) {
+    this.#api = api;
+    this.#on = on;
+    this.#now = now;
+  }
+
+  // Opens a scene in place of the present one, which lives on if the server refuses. Returns the server's account of
+  // it. `firstView(info)` gives the view to start with.
+  async open(text, firstView) {
+    const turn = ++this.#opens;
+    const info = await this.#api.openSession(text);
+    if (turn !== this.#opens) {
+      this.#discard(info.id);
+      throw new Superseded();
+    }
+    if (this.#id) this.#discard(this.#id);
+    this.#text = text;
+    this.#adopt(info.id);
+    this.look(firstView(info));
+    return info;
+  }
+
+  look(view) {
+    this.#wanted = { ...view, seq: this.#wanted.seq + 1 };
+    this.#send();
+  }
+
+  close() {
+    this.#polling?.abort();
+    if (this.#id) this.#discard(this.#id);
+    this.#id = null;
+  }
+
+  #adopt(id) {
+    this.#polling?.abort();
+    this.#polling = null;
+    this.#recovery = null;
+    this.#id = id;
+    this.#frameNumber = 0;
+    this.#on.state('live');
+  }
+
+  #discard(id) {
+    this.#api.closeSession(id).catch(() => {});  // it expires by itself
+    return null;
+  }
+
+  #send() {
+    if (!this.#id || this.#recovery || this.#sent.seq === this.#wanted.seq) return;
+    if (this.#wanted.moving && this.#sent.moving && this.#seenSeq < this.#sent.seq) {
+      if (this.#now() - this.#sent.atMs < kOverdueMs) return;
+      this.#on.overdue();
+    }
+    const id = this.#id;
+    this.#sent = { seq: this.#wanted.seq, moving: this.#wanted.moving, atMs: this.#now() };
+    this.#isFinal = false;
+    this.#api.putView(id, this.#wanted).catch((error) => this.#fail(id, error));
+    if (!this.#polling) this.#poll(id);
+  }
+
+  // Takes frames until the newest view has its last one.
+  async #poll(id) {
+    const polling = new AbortController();
+    this.#polling = polling;
+    try {
+      while (!polling.signal.aborted && !this.#isFinal) {
+        const format = this.#wanted.moving ? 'image/jpeg' : 'image/png';
+        const frame = await this.#api.nextFrame(id, this.#frameNumber, format, polling.signal);
+        if (frame && !polling.signal.aborted) this.#take(frame);
+      }
+    } catch (error) {
+      if (error.name !== 'AbortError') this.#fail(id, error);
+    }
+    if (this.#polling === polling) this.#polling = null;
+  }
+
+  #take(frame) {
+    this.#frameNumber = frame.number;
+    if (frame.viewSeq > 0) {  // 0 is the scene's own view, in its own size
+      const isNewest = frame.viewSeq === this.#sent.seq;
+      const latencyMs = isNewest && this.#seenSeq < frame.viewSeq ? this.#now() - this.#sent.atMs : null;
+      this.#seenSeq = Math.max(this.#seenSeq, frame.viewSeq);
+      this.#isFinal = frame.isFinal && frame.viewSeq === this.#wanted.seq;
+      this.#on.frame({ frame, moving: isNewest && this.#sent.moving, latencyMs });
+    }
+    this.#send();
+  }
+
+  async #fail(id, error) {
+    if (this.#recovery || id !== this.#id) return;
+    const recovery = {};
+    this.#recovery = recovery;
+    this.#polling?.abort();
+    this.#polling = null;
+    let cause = error;
+    for (let attempt = 0; cause && this.#recovery === recovery; ++attempt) cause = await this.#retry(id, cause, attempt);
+    if (this.#recovery === recovery) this.#recovery = null;
+    this.#send();
+  }
+
+  // One attempt to go on after `cause`; returns what stopped it, or null when there is nothing more to try.
+  async #retry(id, cause, attempt) {
+    const isGone = cause instanceof Problem && (cause.status === 404 || cause.status === 410);
+    const isBusy = cause instanceof Problem && (cause.status === 429 || cause.status === 503);
+    const isAway = cause instanceof Unreachable;
+    if (!isGone && !isBusy && !isAway) {
+      this.#on.state('failed', cause);
+      return null;
+    }
+    if (isAway) this.#on.state('offline');
+    if (isBusy) this.#on.state('busy');
+    if (!isGone) await pause(isBusy ? cause.retryAfterS * 1000 : kBackoffMs[Math.min(attempt, kBackoffMs.length - 1)]);
+    try {
+      if (isGone) {
+        const info = await this.#api.openSession(this.#text);
+        if (this.#id !== id) return this.#discard(info.id);
+        this.#adopt(info.id);
+      } else {
+        await this.#api.putView(id, this.#wanted);
+        if (this.#id !== id) return null;
+        this.#on.state('live');
+      }
+      this.#wanted = { ...this.#wanted, seq: this.#wanted.seq + 1 };  // what came of the old one may be lost
+      return null;
+    } catch (error) {
+      return error;
+    }
+  }
+}
+
+// Ends early when the browser says that the network is back.
+function pause(ms) {
+  return new Promise((resolve) => {
+    const end = () => {
+      clearTimeout(timer);
+      globalThis.removeEventListener?.('online', end);
+      resolve();
+    };
+    const timer = setTimeout(end, ms);
+    globalThis.addEventListener?.('online', end);
+  });
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The present view in a form that leaves the page: a link, or a command for a shell. Pure but for the compression, which
+// the browser does.
+
+// A scene document with the picture's present camera and size.
+export function stillDocument(sceneText, still) {
+  const scene = JSON.parse(sceneText);
+  return { ...scene, camera: still.camera, image: { ...scene.image, ...still.image } };
+}
+
+// A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
+// changes nothing; no line of JSON can be its end mark.
+export function curlCommand(origin, document) {
+  return [
+    `curl --silent --show-error --fail '${origin}/v1/renders' \\`,
+    "  --header 'Content-Type: application/json' --header 'Accept: image/png' --header 'Prefer: wait=60' \\",
+    "  --output tilelight.png --data-binary @- <<'SCENE'",
+    JSON.stringify(document),
+    'SCENE',
+    '',
+  ].join('\n');
+}
+
+// {scene: name} or {text: scene JSON}, and {camera}, to and from the part of a link after its #.
+export async function encodeLink({ scene, text, camera }) {
+  const parts = new URLSearchParams();
+  if (text) parts.set('json', toBase64Url(await deflate(text)));
+  else parts.set('scene', scene);
+  if (camera) parts.set('camera', cameraNumbers(camera).join(','));
+  return `#${decodeURIComponent(parts.toString())}`;
+}
+
+// Null parts where the link has none or says something odd.
+export async function decodeLink(hash) {
+  const parts = new URLSearchParams(hash.replace(/^#/, ''));
+  const json = parts.get('json');
+  const text = json ? await inflate(fromBase64Url(json)).catch(() => null) : null;
+  return { scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')) };
+}
+
+function cameraNumbers(camera) {
+  const angle = camera.type === 'orthographic' ? ['h', camera.height] : ['p', camera.fov_y_deg];
+  const short = (x) => Number(x.toPrecision(5));
+  return [angle[0], short(angle[1]), ...[...camera.position, ...camera.target, ...(camera.up ?? [0, 1, 0])].map(short)];
+}
+
+function cameraFrom(list) {
+  const [kind, ...numbers] = (list ?? '').split(',');
+  const values = numbers.map(Number);
+  if (!['h', 'p'].includes(kind) || values.length !== 10 || !values.every(Number.isFinite)) return null;
+  const place = { position: values.slice(1, 4), target: values.slice(4, 7), up: values.slice(7, 10) };
+  if (kind === 'h') return { type: 'orthographic', height: values[0], ...place };
+  return { type: 'perspective', fov_y_deg: values[0], ...place };
+}
+
+const pipe = (bytes, stream) => new Response(new Blob([bytes]).stream().pipeThrough(stream));
+const deflate = async (text) => new Uint8Array(await pipe(text, new CompressionStream('deflate-raw')).arrayBuffer());
+const inflate = (bytes) => pipe(bytes, new DecompressionStream('deflate-raw')).text();
+
+function toBase64Url(bytes) {
+  let binary = '';
+  for (const byte of bytes) binary += String.fromCharCode(byte);
+  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+}
+
+function fromBase64Url(text) {
+  try {
+    return Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
+  } catch {
+    return new Uint8Array();
+  }
+}

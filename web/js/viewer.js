@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from hand to picture: gestures push the camera, the camera becomes views of a session, the session's frames
+// are drawn. While moving, a smaller picture is asked for; at rest, the full one, which then refines.
+import { fitToAspect, orbit, pan, toSceneCamera, zoom } from './camera.js';
+import { attachGestures } from './gestures.js';
+import { Inertia, kSettleMs } from './inertia.js';
+import { Picture } from './picture.js';
+import { fullSize, nextScale, scaledSize } from './resolution.js';
+import { kOverdueMs, ViewSession } from './session.js';
+
+const kRestMs = 140;      // without movement before the full picture is asked for
+const kResizeMs = 120;
+const kFirstScale = 0.4;
+const kMaxStepMs = 50;    // a tab that slept does not jump
+
+export class Viewer {
+  #canvas;
+  #picture;
+  #session;
+  #inertia;
+  #on;
+  #camera = null;
+  #home = null;
+  #pictureAspect = 16 / 9;
+  #full = { width: 1, height: 1 };
+  #scale = kFirstScale;
+  #cursor = { x: 0, y: 0 };
+  #ticking = false;
+  #lastTick = 0;
+  #restTimer = 0;
+
+  // `on.frame({frame, size, moving})` after a picture was drawn, `on.state(name, problem)` as of ViewSession,
+  // `on.moved()` when the camera left its place.
+  constructor(canvas, { api, on }) {
+    this.#canvas = canvas;
+    this.#on = on;
+    this.#picture = new Picture(canvas);
+    const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.#inertia = new Inertia(calm ? 0 : kSettleMs);
+    this.#session = new ViewSession({
+      api,
+      on: { frame: (event) => this.#drawn(event), overdue: () => this.#slowDown(), state: on.state },
+    });
+    attachGestures(canvas, { move: (part, cursor) => this.#move(part, cursor), reset: () => this.reset() });
+    this.#measure();
+    let resizeTimer = 0;
+    new ResizeObserver(() => {
+      clearTimeout(resizeTimer);
+      resizeTimer = setTimeout(() => this.#resized(), kResizeMs);
+    }).observe(canvas);
+    addEventListener('pagehide', () => this.#session.close());
+  }
+
+  // Shows a scene. `camera` = where to look from, instead of the scene's own camera.
+  async open(sceneText, camera) {
+    return this.#session.open(sceneText, (info) => {
+      this.#inertia.stop();
+      this.#home = info.camera;
+      this.#pictureAspect = info.image.width / info.image.height;
+      this.#camera = { ...info.camera, ...camera };
+      return this.#view(false);
+    });
+  }
+
+  get camera() {
+    return this.#camera;
+  }
+
+  // What a full render of the present view takes: the keys `camera` and `image` of a scene.
+  get still() {
+    return { camera: this.#fitted(), image: { ...this.#full } };
+  }
+
+  reset() {
+    if (!this.#home) return;
+    this.#inertia.stop();
+    this.#camera = this.#home;
+    this.#session.look(this.#view(true));
+    this.#restSoon();
+  }
+
+  #fitted() {
+    return toSceneCamera(fitToAspect(this.#camera, this.#pictureAspect, this.#full.width / this.#full.height));
+  }
+
+  #view(moving) {
+    const image = moving ? scaledSize(this.#full, this.#scale) : this.#full;
+    return { camera: this.#fitted(), image, moving };
+  }
+
+  #move(part, cursor) {
+    if (!this.#camera) return;
+    if (cursor) this.#cursor = cursor;
+    else if ('zoomLog' in part) this.#cursor = { x: 0, y: 0 };
+    this.#inertia.push(part);
+    this.#on.moved();
+    if (this.#ticking) return;
+    this.#ticking = true;
+    this.#lastTick = performance.now();
+    requestAnimationFrame((time) => this.#tick(time));
+  }
+
+  #tick(time) {
+    const elapsedMs = Math.min(kMaxStepMs, Math.max(1, time - this.#lastTick));
+    this.#lastTick = time;
+    const part = this.#inertia.take(elapsedMs);
+    let camera = orbit(this.#camera, part.azimuth, part.polar);
+    camera = pan(camera, part.panX, part.panY);
+    this.#camera = zoom(camera, Math.exp(part.zoomLog), this.#cursor);
+    this.#session.look(this.#view(true));
+    this.#restSoon();
+    this.#ticking = this.#inertia.isMoving;
+    if (this.#ticking) requestAnimationFrame((next) => this.#tick(next));
+  }
+
+  #restSoon() {
+    clearTimeout(this.#restTimer);
+    this.#restTimer = setTimeout(() => this.#session.look(this.#view(false)), kRestMs);
+  }
+
+  async #drawn({ frame, moving, latencyMs }) {
+    if (moving && latencyMs !== null) this.#scale = nextScale(this.#scale, latencyMs, frame.timings.render);
+    const size = await this.#picture.show(frame);
+    if (size) this.#on.frame({ frame, size, moving });
+  }
+
+  #slowDown() {
+    this.#scale = nextScale(this.#scale, kOverdueMs);
+  }
+
+  #measure() {
+    this.#full = fullSize(this.#canvas.clientWidth, this.#canvas.clientHeight, devicePixelRatio || 1);
+    this.#picture.resize(this.#full);
+  }
+
+  #resized() {
+    const before = this.#full;
+    this.#measure();
+    if (!this.#camera || (before.width === this.#full.width && before.height === this.#full.height)) return;
+    this.#session.look(this.#view(false));
+  }
+}
