@@ -5,11 +5,10 @@
 
 namespace tilelight {
 
+Vec2 direction_at(double angle_rad) { return {elementary::cos(angle_rad), -elementary::sin(angle_rad)}; }
+
 Columns::Columns(int count) : directions_(count + 1) {
-  for (int j = 0; j < count; ++j) {
-    const double angle = 2.0 * elementary::kPi * j / count;
-    directions_[j] = Vec2(elementary::cos(angle), -elementary::sin(angle));
-  }
+  for (int j = 0; j < count; ++j) directions_[j] = direction_at(2.0 * elementary::kPi * j / count);
   directions_[count] = directions_[0];
 }
 

@@ -10,12 +10,13 @@
 
 namespace tilelight {
 
-// Directions around the axis. Counter-clockwise seen from above; column 0 looks along +x, the last one repeats it.
+// Directions around the axis, counter-clockwise seen from above; the last one repeats the first.
 class Columns {
  public:
-  explicit Columns(int count);
+  explicit Columns(int count);  // evenly spread
+  explicit Columns(std::vector<Vec2> directions) : directions_(std::move(directions)) {}
   int count() const { return static_cast<int>(directions_.size()) - 1; }
-  // (cos, -sin) of the column's angle: the x and z of its direction. 0 <= column <= count().
+  // The x and z of a column's direction. 0 <= column <= count().
   Vec2 direction(int column) const { return directions_[column]; }
 
  private:
@@ -23,6 +24,9 @@ class Columns {
 };
 
 SurfacePoint turned_point(const ProfilePoint& point, Vec2 direction);
+
+// The direction at an angle from +x, counter-clockwise seen from above.
+Vec2 direction_at(double angle_rad);
 
 // Adds the surface of revolution of every run of the profile.
 void turn(MeshBuilder& mesh, const Profile& profile, const Columns& columns);

@@ -7,12 +7,12 @@ namespace tilelight {
 namespace {
 
 Profile pawn_profile(int detail) {
-  Profile profile = turned_foot({.radius = 0.285, .height = 0.27, .stem_radius = 0.135}, detail);
-  profile.curve_to({0.120, 0.36}, {0.080, 0.44}, {0.078, 0.575});
-  profile.line_to({0.110, 0.580});
-  profile.curve_to({0.150, 0.590}, {0.165, 0.600}, {0.172, 0.612});  // the collar: a thin lens
-  profile.curve_to({0.165, 0.628}, {0.140, 0.638}, {0.100, 0.646});
-  profile.arc_to({0.0, 0.95}, 144.0);
+  Profile profile = turned_foot({.radius = 0.285, .height = 0.27, .stem_radius = 0.142}, detail);
+  profile.curve_to({0.104, 0.315}, {0.080, 0.41}, {0.080, 0.555});
+  profile.line_to({0.094, 0.558});
+  add_bead(profile, 0.094, 0.582);
+  add_collar(profile, 0.176, 0.606, 0.060, 0.090);
+  profile.arc_to({0.0, 0.95}, 2.0 * 74.0);  // the ball
   return profile;
 }
 

@@ -11,21 +11,19 @@ namespace {
 
 Vec2 right_of(Vec2 tangent) { return glm::normalize(Vec2(tangent.y, -tangent.x)); }
 
-struct Cubic {
-  Vec2 p0, p1, p2, p3;
-  Vec2 position(double t) const {
-    const double s = 1.0 - t;
-    return s * s * s * p0 + 3.0 * s * s * t * p1 + 3.0 * s * t * t * p2 + t * t * t * p3;
-  }
-  Vec2 tangent(double t) const {
-    const double s = 1.0 - t;
-    const Vec2 d = s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2);
-    if (d != Vec2(0.0)) return d;
-    return t < 0.5 ? p2 - p0 : p3 - p1;  // a control point on its end point
-  }
-};
-
 }  // namespace
+
+Vec2 Cubic::position(double t) const {
+  const double s = 1.0 - t;
+  return s * s * s * p0 + 3.0 * s * s * t * p1 + 3.0 * s * t * t * p2 + t * t * t * p3;
+}
+
+Vec2 Cubic::tangent(double t) const {
+  const double s = 1.0 - t;
+  const Vec2 d = s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2);
+  if (d != Vec2(0.0)) return d;
+  return t < 0.5 ? p2 - p0 : p3 - p1;  // a control point lies on its end point
+}
 
 Profile::Profile(Vec2 start, int detail) : detail_(detail) { runs_.push_back({{start, Vec2(0.0, -1.0)}}); }
 

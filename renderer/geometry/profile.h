@@ -15,6 +15,13 @@ struct ProfilePoint {
 };
 using ProfileRun = std::vector<ProfilePoint>;  // smooth; the next run starts at the position where this one ends
 
+// A cubic Bezier curve, 0 <= t <= 1.
+struct Cubic {
+  Vec2 p0, p1, p2, p3;
+  Vec2 position(double t) const;
+  Vec2 tangent(double t) const;  // not of unit length
+};
+
 class Profile {
  public:
   // `detail` as in make_chess_piece. Curves are cut into a number of pieces that grows with its square root, so that

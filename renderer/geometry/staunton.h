@@ -20,6 +20,9 @@ Profile turned_foot(const Foot& foot, int detail);
 // A half-round ring from the profile's end to (r, y).
 void add_bead(Profile& profile, double r, double y);
 
+// A wide thin disc with a rounded lip, its rim at (reach, y), from the profile's end below to r_after above it.
+void add_collar(Profile& profile, double reach, double y, double thickness, double r_after);
+
 // Smallest multiple of `of` that is no less than `detail`: columns of a piece with an `of`-fold head.
 constexpr int round_up(int detail, int of) { return (detail + of - 1) / of * of; }
 
