@@ -9,6 +9,7 @@ namespace tilelight {
 struct Limits {
   int64_t bytes = 16 << 20;          // of a scene document
   int json_depth = 64;
+  int64_t json_values = 1'000'000;   // values of a document; 40 bytes each while it is read. Numbers in lists are free
   int64_t objects = 10'000;
   int64_t lights = 1'000;
   int64_t materials = 10'000;

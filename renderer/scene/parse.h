@@ -36,7 +36,8 @@ struct SceneErrors {
 struct ParsedScene {
   Scene scene;
   View view;
-  std::string scene_id;              // SHA-256 of the canonical document
+  std::string scene_id;              // SHA-256 of the canonical document, 64 hexadecimal digits
+  std::string compile_key;           // the same without camera, image and render: equal keys compile equally
   std::vector<SceneWarning> warnings;
 };
 

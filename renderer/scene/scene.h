@@ -146,7 +146,8 @@ struct RenderSpec {
   int ray_budget = 4096;         // rays a pixel sample
   uint32_t seed = 0;
   // Stop rules; the first that holds ends the render.
-  std::optional<int> samples;     // a pixel
+  std::optional<int> samples;     // a pixel; parsing always sets it
+  bool samples_asked = false;     // false: `samples` follows from the other rules or is the default
   std::optional<double> time_ms;
   std::vector<int> passes;        // an exact replay; empty = not asked for
 };

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/scene/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tilelight {
+namespace {
+
+// A mesh of wrong numbers must not crowd out the other errors.
+constexpr int kMaxErrorsInList = 5;
+
+std::string describe_length(const Length& length, const std::string& noun) {
+  constexpr int64_t kEndless = std::numeric_limits<int64_t>::max();
+  if (length.min == length.max) return std::to_string(length.min) + " " + noun;
+  std::string text;
+  if (length.min > 0) text += "at least " + std::to_string(length.min) + " ";
+  if (length.max != kEndless) {
+    text += (text.empty() ? "at most " : "and at most ") + std::to_string(length.max) + " ";
+    if (length.is_limit) text += "(a limit of this server) ";
+  }
+  text += noun;
+  if (length.step > 1) text += ", a multiple of " + std::to_string(length.step);
+  return text;
+}
+
+std::string describe_range(const Range& range) {
+  std::string text = range.whole ? "a whole number" : "a number";
+  const bool unbounded_below = range.min <= -kMaxMagnitude;
+  if (!unbounded_below) text += (range.above_min ? " above " : " from ") + number_text(range.min);
+  text += (range.below_max ? " under " : unbounded_below ? " up to +-" : " to ") + number_text(range.max);
+  if (range.is_limit) text += " (a limit of this server)";
+  if (range.nonzero) text += ", not 0";
+  return text;
+}
+
+bool is_in_range(double number, const Range& range) {
+  if (number < range.min || (range.above_min && number == range.min)) return false;
+  if (number > range.max || (range.below_max && number == range.max)) return false;
+  if (range.nonzero && number == 0.0) return false;
+  return !range.whole || std::floor(number) == number;
+}
+
+Complaint range_complaint(double number, const Range& range) {
+  const bool over_limit = range.is_limit && number > range.max;
+  return {over_limit ? "limit" : "out_of_range",
+          "found " + number_text(number) + "; allowed: " + describe_range(range), {}, ""};
+}
+
+// Whether a value is of the JSON kind, and of the shape among equal kinds, that the rule speaks of.
+bool is_of_kind(Value value, const Rule& rule) {
+  switch (rule.form) {
+    case Form::boolean: return value.is(JsonKind::boolean);
+    case Form::number: return value.is(JsonKind::number);
+    case Form::text:
+    case Form::hex_color:
+    case Form::word: return value.is(JsonKind::text);
+    case Form::numbers:
+    case Form::list: return value.is(JsonKind::array);
+    case Form::map:
+    case Form::record:
+    case Form::tagged: return value.is(JsonKind::object);
+    case Form::any_of:
+      return std::any_of(rule.options.begin(), rule.options.end(),
+                         [value](const Rule& option) { return is_of_kind(value, option); });
+  }
+  return false;
+}
+
+bool is_hex_color(std::string_view text) {
+  return text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+}
+
+class GrammarCheck {
+ public:
+  explicit GrammarCheck(Problems& problems) : problems_(problems) {}
+
+  void check(Value value, const Rule& rule) {
+    if (problems_.full()) return;
+    if (!is_of_kind(value, rule)) {
+      refuse(value, {"wrong_type", "found " + describe_found(value) + "; allowed: " + describe_allowed(rule), {}, ""});
+      return;
+    }
+    switch (rule.form) {
+      case Form::boolean: check_boolean(value, rule); break;
+      case Form::number:
+        if (!is_in_range(value.number(), rule.range)) refuse(value, range_complaint(value.number(), rule.range));
+        break;
+      case Form::numbers: check_numbers(value, rule); break;
+      case Form::text: break;
+      case Form::hex_color:
+        if (!is_hex_color(value.text())) {
+          refuse(value, {"wrong_type", "found " + describe_found(value) + "; allowed: " + describe_allowed(rule), {}, ""});
+        }
+        break;
+      case Form::word: check_word(value, rule); break;
+      case Form::list: check_list(value, rule); break;
+      case Form::map: check_map(value, rule); break;
+      case Form::record: check_record(value, *rule.records[0], false); break;
+      case Form::tagged: check_tagged(value, rule); break;
+      case Form::any_of:
+        check(value, *std::find_if(rule.options.begin(), rule.options.end(),
+                                   [value](const Rule& option) { return is_of_kind(value, option); }));
+        break;
+    }
+  }
+
+  // `tagged`: the record was chosen by its "type", which has been seen to.
+  void check_record(Value value, const Record& record, bool tagged) {
+    for (const Value member : value.children()) {
+      if (is_free_key(member.key()) || (tagged && member.key() == "type")) continue;
+      const auto field = std::find_if(record.fields.begin(), record.fields.end(),
+                                      [member](const Field& f) { return f.key == member.key(); });
+      if (field == record.fields.end()) {
+        refuse_key(member, unknown_key(member.key(), record, tagged));
+      } else if (field->need == Need::later) {
+        refuse_key(member, {"not_in_this_release",
+                            in_quotes(member.key()) + " is of the language, but this release cannot do it yet", {},
+                            "leave it out"});
+      } else {
+        check(member, field->rule);
+      }
+    }
+    check_presence(value, record);
+    check_exclusive(value, record);
+  }
+
+ private:
+  void refuse(Value value, Complaint complaint) {
+    value.reject();
+    problems_.add(value, std::move(complaint));
+  }
+
+  void refuse_key(Value member, Complaint complaint) {
+    member.reject();
+    problems_.add_key(member, std::move(complaint));
+  }
+
+  static Complaint unknown_key(std::string_view key, const Record& record, bool tagged) {
+    std::vector<std::string> known;
+    if (tagged) known.emplace_back("type");
+    for (const Field& field : record.fields) {
+      if (field.need != Need::later) known.emplace_back(field.key);
+    }
+    std::string hint = did_you_mean(key, known);
+    if (hint.empty()) hint = "keys of your own begin with \"x-\" or go into \"extras\"";
+    return {"unknown_key", "found " + in_quotes(key) + "; allowed in a " + std::string(record.name) + ": " + join_words(known),
+            std::move(known), std::move(hint)};
+  }
+
+  void check_presence(Value value, const Record& record) {
+    const bool has_later = std::any_of(record.fields.begin(), record.fields.end(), [value](const Field& field) {
+      return field.need == Need::later && value.find(field.key);
+    });
+    if (has_later) return;  // it may stand for what is missing
+    for (const Field& field : record.fields) {
+      if (field.need != Need::required || value.find(field.key)) continue;
+      refuse(value, {"missing_key",
+                     "found no " + in_quotes(field.key) + " in this " + std::string(record.name) + "; it is " +
+                         describe_allowed(field.rule),
+                     {std::string(field.key)}, ""});
+    }
+  }
+
+  void check_exclusive(Value value, const Record& record) {
+    for (const auto& keys : record.exclusive) {
+      if (!value.find(keys[0])) continue;
+      for (size_t i = 1; i < keys.size(); ++i) {
+        if (const Value other = value.find(keys[i])) {
+          refuse_key(other, {"exclusive_keys", in_quotes(keys[0]) + " and " + in_quotes(keys[i]) + " exclude each other", {},
+                             "leave one of them out"});
+        }
+      }
+    }
+  }
+
+  void check_boolean(Value value, const Rule& rule) {
+    if (rule.only_false && value.boolean()) {
+      refuse(value, {"not_in_this_release", "found true; allowed in this release: false", {"false"}, ""});
+    }
+  }
+
+  void check_word(Value value, const Rule& rule) {
+    const auto known = std::find_if(rule.words.begin(), rule.words.end(),
+                                    [value](const Word& word) { return word.word == value.text(); });
+    if (known != rule.words.end() && known->released) return;
+    std::vector<std::string> allowed;
+    for (const Word& word : rule.words) {
+      if (word.released) allowed.emplace_back(word.word);
+    }
+    if (known != rule.words.end()) {
+      refuse(value, {"not_in_this_release",
+                     in_quotes(value.text()) + " is of the language, but this release cannot do it yet; allowed: " +
+                         join_words(allowed),
+                     allowed, ""});
+      return;
+    }
+    std::string hint = did_you_mean(value.text(), allowed);
+    refuse(value, {"unknown_word", "found " + in_quotes(value.text()) + "; allowed: " + join_words(allowed), allowed,
+                   std::move(hint)});
+  }
+
+  // Returns false, after a complaint, if the number of entries is not allowed.
+  bool check_length(Value value, const Length& length, const std::string& noun) {
+    const auto size = static_cast<int64_t>(value.size());
+    if (size >= length.min && size <= length.max && size % length.step == 0) return true;
+    const bool over_limit = length.is_limit && size > length.max;
+    refuse(value, {over_limit ? "limit" : "wrong_length",
+                   "found " + describe_found(value) + "; allowed: " + describe_length(length, noun), {}, ""});
+    return false;
+  }
+
+  void check_numbers(Value value, const Rule& rule) {
+    if (value.is_packed()) {
+      check_packed(value, rule.range);
+    } else {
+      int errors = 0;
+      for (const Value element : value.children()) {
+        if (element.is(JsonKind::number) && is_in_range(element.number(), rule.range)) continue;
+        check(element, {.form = Form::number, .range = rule.range});
+        value.reject();
+        if (++errors == kMaxErrorsInList) break;
+      }
+    }
+    if (!check_length(value, rule.length, "numbers") || value.is_rejected()) return;
+    const auto numbers = value.numbers();
+    if (rule.nonzero_vector && std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == 0.0; })) {
+      refuse(value, {"out_of_range", "found a zero vector; allowed: " + describe_allowed(rule), {}, ""});
+    }
+  }
+
+  void check_packed(Value value, const Range& range) {
+    const auto numbers = value.numbers();
+    int errors = 0;
+    for (size_t i = 0; i < numbers.size() && errors < kMaxErrorsInList; ++i) {
+      if (is_in_range(numbers[i], range)) continue;
+      value.reject();
+      problems_.add_element(value, i, range_complaint(numbers[i], range));
+      ++errors;
+    }
+  }
+
+  void check_list(Value value, const Rule& rule) {
+    if (!check_length(value, rule.length, "entries")) return;
+    if (value.is_packed() && value.size() > 0) {
+      value.reject();
+      for (size_t i = 0; i < std::min<size_t>(value.size(), kMaxErrorsInList); ++i) {
+        problems_.add_element(value, i, {"wrong_type", "found " + number_text(value.numbers()[i]) + "; allowed: " +
+                                         describe_allowed(rule.options[0]), {}, ""});
+      }
+    }
+    for (const Value entry : value.children()) check(entry, rule.options[0]);
+  }
+
+  void check_map(Value value, const Rule& rule) {
+    if (!check_length(value, rule.length, "entries")) return;
+    for (const Value entry : value.children()) {
+      if (!is_free_key(entry.key())) check(entry, rule.options[0]);
+    }
+  }
+
+  void check_tagged(Value value, const Rule& rule) {
+    std::vector<Word> words;
+    for (const auto& record : rule.records) words.push_back({record->name});
+    const Rule tag_rule{.form = Form::word, .words = std::move(words)};
+    const Value tag = value.find("type");
+    if (!tag && !rule.tag_optional) {
+      std::vector<std::string> allowed;
+      for (const Word& word : tag_rule.words) allowed.emplace_back(word.word);
+      refuse(value, {"missing_key", "found no \"type\"; allowed: " + join_words(allowed), allowed, ""});
+      return;
+    }
+    if (tag) check(tag, tag_rule);
+    if (tag && tag.is_rejected()) {
+      value.reject();
+      return;
+    }
+    const auto record = tag ? std::find_if(rule.records.begin(), rule.records.end(),
+                                           [tag](const auto& r) { return r->name == tag.text(); })
+                            : rule.records.begin();
+    check_record(value, **record, true);
+  }
+
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::string describe_allowed(const Rule& rule) {
+  switch (rule.form) {
+    case Form::boolean: return rule.only_false ? "false" : "true or false";
+    case Form::number: return describe_range(rule.range);
+    case Form::numbers: {
+      const std::string each = rule.range.max < kMaxMagnitude ? ", each " + describe_range(rule.range) : "";
+      return describe_length(rule.length, "numbers") + (rule.nonzero_vector ? ", not all 0" : "") + each;
+    }
+    case Form::text: return "a string";
+    case Form::hex_color: return "\"#rrggbb\"";
+    case Form::word: {
+      std::vector<std::string> words;
+      for (const Word& word : rule.words) {
+        if (word.released) words.push_back(in_quotes(word.word));
+      }
+      return join_words(words);
+    }
+    case Form::list: return "a list of objects";
+    case Form::map: return "an object of named entries";
+    case Form::record:
+    case Form::tagged: return "an object";
+    case Form::any_of: {
+      std::vector<std::string> options;
+      for (const Rule& option : rule.options) options.push_back(describe_allowed(option));
+      return join_words(options);
+    }
+  }
+  return "";
+}
+
+void report_duplicates(Document& document, Problems& problems) {
+  for (const Value member : document.duplicates()) {
+    problems.add_key(member, {"duplicate_key", "found " + in_quotes(member.key()) + " more than once in one object", {},
+                              "leave one of them out"});
+  }
+}
+
+void check_document(Value root, const Record& grammar, Problems& problems) {
+  if (!root.is(JsonKind::object)) {
+    root.reject();
+    problems.add(root, {"wrong_type", "found " + describe_found(root) + "; allowed: a " + std::string(grammar.name) +
+                        ", which is an object", {}, ""});
+    return;
+  }
+  GrammarCheck(problems).check_record(root, grammar, false);
+}
+
+}  // namespace tilelight

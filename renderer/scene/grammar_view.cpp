@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chapters of the language on the view: camera, image, render.
+#include "renderer/scene/grammar_rules.h"
+
+namespace tilelight {
+namespace {
+
+std::shared_ptr<const Record> camera_record(std::string_view name, std::string_view title, Field lens) {
+  return std::make_shared<const Record>(
+      Record{name,
+             title,
+             {{"position", vector_rule(), "Eye", "Scene units.", "", Need::required},
+              {"target", vector_rule(), "What it looks at", "Scene units.", "[0, 0, 0]"},
+              {"up", direction_rule(), "Up", "Need not be at right angles to the view.", "[0, 1, 0]"},
+              std::move(lens)}});
+}
+
+}  // namespace
+
+Rule camera_grammar() {
+  const Range half_turn{.min = 0.0, .max = 180.0, .above_min = true, .below_max = true};
+  return {.form = Form::tagged,
+          .tag_optional = true,
+          .records = {camera_record("perspective", "A pinhole camera",
+                                    {"fov_y_deg", number_rule(half_turn), "Field of view",
+                                     "Degrees from the bottom to the top edge.", "40"}),
+                      camera_record("orthographic", "A camera of parallel rays",
+                                    {"height", number_rule(kPositive), "Height of the picture",
+                                     "Scene units from the bottom to the top edge.", "", Need::required})}};
+}
+
+Rule image_grammar(const Limits& limits) {
+  return record_rule(
+      {"image",
+       "Size and exposure",
+       {{"width", whole_rule(1, limits.image_side, true), "Width", "Pixels.", "1280"},
+        {"height", whole_rule(1, limits.image_side, true), "Height", "Pixels.", "720"},
+        {"exposure", number_rule({.min = -1000.0, .max = 1000.0}), "Exposure", "Stops: factors of two.", "0"}}});
+}
+
+Rule render_grammar(const Limits& limits) {
+  const Range pass{.min = 1.0, .max = static_cast<double>(limits.samples), .whole = true, .is_limit = true};
+  Rule tessellate = boolean_rule();
+  tessellate.only_false = true;
+  return record_rule(
+      {"render",
+       "Method and stop rules; the first rule that holds ends the render",
+       {{"algorithm", words_rule(kAlgorithms, {{"zbuffer"}, {"warnock"}, {"roberts"}}), "Hidden-surface method", "",
+         "\"raytrace\""},
+        {"shading", words_rule(kShadings, {{"flat"}, {"gouraud"}}), "Shading rule", "", "\"phong\""},
+        {"shadows", boolean_rule(), "Whether any light casts shadows", "", "true"},
+        {"max_depth", whole_rule(0, limits.max_depth, true), "Secondary rays in a row", "0: local light only.", "8"},
+        {"weight_cutoff", number_rule(kUnitInterval), "Least weight of a path that is followed", "", "0.002"},
+        {"ray_budget", whole_rule(1, limits.ray_budget, true), "Rays a pixel sample", "", "4096"},
+        {"terminator", words_rule({{"smooth"}, {"exact", false}}), "Shadow terminator of smooth meshes", "",
+         "\"smooth\""},
+        {"filter", words_rule({{"box"}, {"tent", false}, {"gaussian", false}}), "Pixel filter", "", "\"box\""},
+        {"tessellate", tessellate, "Whether spheres and boxes become triangles", "", "false"},
+        {"seed", whole_rule(0, 4294967295.0), "Seed of the sampling pattern", "", "0"},
+        {"samples", whole_rule(1, limits.samples, true), "Stop rule: samples a pixel",
+         "16 where no rule is given; the server's limit beside `time_ms` alone."},
+        {"time_ms",
+         number_rule({.min = 0.0, .max = limits.time_ms, .above_min = true, .is_limit = true}),
+         "Stop rule: time", "Milliseconds."},
+        {"passes", numbers_rule(pass, {.min = 1, .max = limits.samples, .is_limit = true}),
+         "Stop rule: an exact replay", "Samples a pixel of every pass, as a report lists them."},
+        {"rmse", number_rule(kPositive), "Stop rule: error", "", "", Need::later}}});
+}
+
+}  // namespace tilelight

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/scene/place.h"
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+namespace tilelight {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+// One request with its pointer cut into raw tokens, and the offset found for it.
+struct Wanted {
+  std::vector<std::string> tokens;
+  bool at_key = false;
+  size_t offset = std::string_view::npos;
+};
+
+std::vector<std::string> split_pointer(std::string_view pointer) {
+  std::vector<std::string> tokens;
+  for (size_t i = 0; i < pointer.size(); ++i) {
+    if (pointer[i] == '/') {
+      tokens.emplace_back();
+    } else if (pointer[i] == '~' && i + 1 < pointer.size()) {
+      tokens.back() += pointer[++i] == '1' ? '/' : '~';
+    } else {
+      tokens.back() += pointer[i];
+    }
+  }
+  return tokens;
+}
+
+void append_utf8(uint32_t code, std::string& out) {
+  if (code < 0x80) {
+    out += static_cast<char>(code);
+  } else if (code < 0x800) {
+    out += static_cast<char>(0xC0 | code >> 6);
+    out += static_cast<char>(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    out += static_cast<char>(0xE0 | code >> 12);
+    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
+    out += static_cast<char>(0x80 | (code & 0x3F));
+  } else {
+    out += static_cast<char>(0xF0 | code >> 18);
+    out += static_cast<char>(0x80 | (code >> 12 & 0x3F));
+    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
+    out += static_cast<char>(0x80 | (code & 0x3F));
+  }
+}
+
+// The string whose JSON spelling, without quotes, is `raw`.
+std::string unescape(std::string_view raw) {
+  constexpr std::string_view kLetters = "bfnrt", kMeanings = "\b\f\n\r\t";
+  const auto code_at = [&](size_t i) {
+    return static_cast<uint32_t>(std::stoul(std::string(raw.substr(i, 4)), nullptr, 16));
+  };
+  std::string out;
+  for (size_t i = 0; i < raw.size(); ++i) {
+    if (raw[i] != '\\') {
+      out += raw[i];
+    } else if (raw[++i] != 'u') {
+      const size_t letter = kLetters.find(raw[i]);
+      out += letter == std::string_view::npos ? raw[i] : kMeanings[letter];
+    } else {
+      uint32_t code = code_at(i + 1);
+      i += 4;
+      if (code >= 0xD800 && code < 0xDC00) {  // the first half of a surrogate pair
+        code = 0x10000 + ((code - 0xD800) << 10) + (code_at(i + 3) - 0xDC00);
+        i += 6;
+      }
+      append_utf8(code, out);
+    }
+  }
+  return out;
+}
+
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : text_(text) {}
+
+  // Scans one value; `wanted` are the requests whose first `depth` tokens lead here.
+  void scan(const std::vector<Wanted*>& wanted, size_t depth) {
+    skip_blank();
+    for (Wanted* want : wanted) {
+      if (want->tokens.size() == depth && !want->at_key) want->offset = at_;
+    }
+    const bool descend = std::any_of(wanted.begin(), wanted.end(),
+                                     [depth](const Wanted* want) { return want->tokens.size() > depth; });
+    if (!descend) {
+      skip_value();
+    } else if (text_[at_] == '{') {
+      scan_object(wanted, depth);
+    } else if (text_[at_] == '[') {
+      scan_array(wanted, depth);
+    } else {
+      skip_value();
+    }
+  }
+
+ private:
+  static std::vector<Wanted*> narrow(const std::vector<Wanted*>& wanted, size_t depth, const std::string& token) {
+    std::vector<Wanted*> inside;
+    for (Wanted* want : wanted) {
+      if (want->tokens.size() > depth && want->tokens[depth] == token) inside.push_back(want);
+    }
+    return inside;
+  }
+
+  static size_t index_from_token(const std::string& token) {
+    size_t index = std::string::npos;
+    std::from_chars(token.data(), token.data() + token.size(), index);
+    return index;
+  }
+
+  void scan_object(const std::vector<Wanted*>& wanted, size_t depth) {
+    ++at_;
+    for (skip_blank(); text_[at_] != '}'; skip_blank()) {
+      const size_t key_at = at_;
+      skip_string();
+      const std::vector<Wanted*> inside =
+          narrow(wanted, depth, unescape(text_.substr(key_at + 1, at_ - key_at - 2)));
+      for (Wanted* want : inside) {
+        if (want->at_key && want->tokens.size() == depth + 1) want->offset = key_at;
+      }
+      skip_blank();
+      ++at_;  // the colon
+      scan(inside, depth + 1);
+      skip_comma();
+    }
+    ++at_;
+  }
+
+  void scan_array(const std::vector<Wanted*>& wanted, size_t depth) {
+    std::vector<std::pair<size_t, Wanted*>> by_index;  // lists are long: look only at the next index asked for
+    for (Wanted* want : wanted) {
+      if (want->tokens.size() > depth) by_index.emplace_back(index_from_token(want->tokens[depth]), want);
+    }
+    std::sort(by_index.begin(), by_index.end());
+    auto next = by_index.begin();
+    std::vector<Wanted*> inside;
+    ++at_;
+    skip_blank();
+    for (size_t index = 0; text_[at_] != ']'; ++index) {
+      inside.clear();
+      for (; next != by_index.end() && next->first == index; ++next) inside.push_back(next->second);
+      scan(inside, depth + 1);
+      skip_comma();
+      skip_blank();
+    }
+    ++at_;
+  }
+
+  void skip_blank() { at_ = std::min(text_.find_first_not_of(kBlank, at_), text_.size() - 1); }
+
+  void skip_comma() {
+    skip_blank();
+    if (text_[at_] == ',') ++at_;
+  }
+
+  void skip_string() {
+    for (++at_; text_[at_] != '"'; ++at_) {
+      if (text_[at_] == '\\') ++at_;
+    }
+    ++at_;
+  }
+
+  void skip_value() {
+    int open = 0;
+    do {
+      const char c = text_[at_];
+      if (c == '"') {
+        skip_string();
+      } else if (c == '{' || c == '[') {
+        ++open, ++at_;
+      } else if (c == '}' || c == ']') {
+        --open, ++at_;
+      } else if (c == ',' || c == ':' || kBlank.find(c) != std::string_view::npos) {
+        ++at_;
+      } else {
+        at_ = std::min(text_.find_first_of(" \t\r\n,:]}", at_), text_.size());
+      }
+    } while (open > 0);
+  }
+
+  std::string_view text_;
+  size_t at_ = 0;
+};
+
+}  // namespace
+
+TextPlace place_of_offset(std::string_view text, size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  TextPlace place{1, 1};
+  size_t line_at = 0;
+  for (size_t i = before.find('\n'); i != std::string_view::npos; i = before.find('\n', i + 1)) {
+    ++place.line;
+    line_at = i + 1;
+  }
+  for (const char c : before.substr(line_at)) {
+    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++place.column;  // not the inside of a character
+  }
+  return place;
+}
+
+void find_places(std::string_view text, std::span<PlaceRequest> requests) {
+  std::vector<Wanted> wanted;
+  std::vector<Wanted*> all;
+  wanted.reserve(requests.size());
+  for (const PlaceRequest& request : requests) {
+    wanted.push_back({split_pointer(request.pointer), request.at_key});
+    all.push_back(&wanted.back());
+  }
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  Scanner(text.substr(mark)).scan(all, 0);
+  for (size_t i = 0; i < requests.size(); ++i) {
+    if (wanted[i].offset != std::string_view::npos) {
+      requests[i].place = place_of_offset(text.substr(mark), wanted[i].offset);
+    }
+  }
+}
+
+}  // namespace tilelight

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/scene/problems.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "renderer/scene/place.h"
+
+namespace tilelight {
+namespace {
+
+constexpr size_t kQuotedBytes = 60;  // of a string of the document inside a message
+
+// The number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+      }
+    }
+    std::swap(before_last, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+void Problems::add_at(std::string pointer, bool at_key, Complaint complaint) {
+  if (full()) return;
+  if (errors_.size() + 1 == kMaxErrors) {
+    complaint = {"too_many_errors", "more than " + std::to_string(kMaxErrors - 1) + " errors; this is the first not listed",
+                 {}, "repair the errors listed and try again"};
+  }
+  errors_.push_back({std::move(pointer), std::move(complaint.code), std::move(complaint.detail),
+                     std::move(complaint.allowed), std::move(complaint.hint)});
+  at_key_.push_back(at_key);
+}
+
+void Problems::warn(Value value, std::string code, std::string detail) {
+  if (warnings_.size() < kMaxWarnings) warnings_.push_back({value.pointer(), std::move(code), std::move(detail)});
+}
+
+SceneErrors Problems::take_errors(std::string_view text) {
+  std::vector<PlaceRequest> requests;
+  for (size_t i = 0; i < errors_.size(); ++i) requests.push_back({errors_[i].pointer, at_key_[i], {}});
+  find_places(text, requests);
+  for (size_t i = 0; i < errors_.size(); ++i) {
+    errors_[i].line = requests[i].place.line;
+    errors_[i].column = requests[i].place.column;
+  }
+  // In the order of the text, whatever found them.
+  std::stable_sort(errors_.begin(), errors_.end(), [](const SceneError& a, const SceneError& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  return {SceneErrors::Kind::invalid, std::move(errors_)};
+}
+
+std::string in_quotes(std::string_view text) {
+  size_t end = std::min(text.size(), kQuotedBytes);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  std::string quote(1, '"');
+  quote += text.substr(0, end);
+  quote += end < text.size() ? "...\"" : "\"";
+  return quote;
+}
+
+std::string number_text(double number) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
+  return {buffer, result.ptr};
+}
+
+std::string describe_found(Value value) {
+  const auto plural = [](size_t n, const char* noun) {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+  };
+  switch (value.kind()) {
+    case JsonKind::null: return "null";
+    case JsonKind::boolean: return value.boolean() ? "true" : "false";
+    case JsonKind::number: return number_text(value.number());
+    case JsonKind::text: return in_quotes(value.text()) + " (a string)";
+    case JsonKind::array:
+      if (value.size() == 0) return "an empty list";
+      return "a list of " + plural(value.size(), value.is_packed() ? "number" : "value");
+    case JsonKind::object: return "an object of " + plural(value.size(), "member");
+  }
+  return "";
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
+  constexpr size_t kLongestWord = 64;  // the distance costs the product of the lengths
+  if (word.size() > kLongestWord) return "";
+  const size_t reach = std::max<size_t>(1, word.size() / 3);
+  std::string_view nearest;
+  size_t least = reach + 1;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > word.size() + reach || word.size() > candidate.size() + reach) continue;
+    const size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest.empty() ? "" : "did you mean " + in_quotes(nearest) + "?";
+}
+
+std::string join_words(std::span<const std::string> words) {
+  std::string joined;
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) joined += i + 1 == words.size() ? " or " : ", ";
+    joined += words[i];
+  }
+  return joined;
+}
+
+}  // namespace tilelight
