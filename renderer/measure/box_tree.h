@@ -49,8 +49,8 @@ class BoxTree {
   std::vector<uint32_t> order_;
 };
 
-// Slabs (Kay and Kajiya 1986). A zero direction component in the plane of a face gives 0 * inf = NaN, which std::min and
-// std::max ignore in their second argument; the far side is widened for rounding (Ize 2013, JCGT 2(2)).
+// Slabs (Kay and Kajiya 1986). A zero direction component in the plane of a face gives 0 * inf = NaN, which std::min
+// and std::max ignore in their second argument; the far side is widened for rounding (Ize 2013, JCGT 2(2)).
 inline bool BoxTree::meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_min, double t_max) {
   constexpr double kWiden = 1.0 + 0x1p-50;
   double near = t_min, far = t_max;

@@ -20,13 +20,13 @@ ShownImage shown_image(const std::vector<ReferencePixel>& pixels, int width, int
 
 struct ImageDifference {
   int64_t pixels = 0;
-  int64_t id_mismatches = 0;      // pixels whose first surface differs
-  int64_t q8_differing = 0;       // pixels of which a byte differs, those of fine checkers left out
-  int64_t fine_checker = 0;       // pixels that see a checker cell under kFineCheckerPx
+  int64_t id_mismatches = 0;  // pixels whose first surface differs
+  int64_t q8_differing = 0;   // pixels of which a byte differs, those of fine checkers left out
+  int64_t fine_checker = 0;   // pixels that see a checker cell under kFineCheckerPx
   int64_t fine_checker_differing = 0;
-  int64_t q8_over_one = 0;        // of q8_differing: by more than one level
-  int max_levels = 0;             // largest difference of a byte, fine checkers left out
-  double rmse = 0.0;              // over all pixels and channels, displayed values in [0, 1]
+  int64_t q8_over_one = 0;  // of q8_differing: by more than one level
+  int max_levels = 0;       // largest difference of a byte, fine checkers left out
+  double rmse = 0.0;        // over all pixels and channels, displayed values in [0, 1]
 
   double id_mismatch_rate() const { return rate(id_mismatches); }
   double q8_rate() const { return rate(q8_differing); }

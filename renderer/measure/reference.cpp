@@ -114,8 +114,8 @@ class Sample {
     MediaStack beyond = path.media;
     double ior_from = 1.0, ior_to = 1.0;  // alike for thin bodies: straight on
     if (scene_.is_medium(at.hit.body)) {
-      const MediaStack here = at.is_inside && !path.media.contains(at.hit.body) ? path.media.with(at.hit.body)
-                                                                                : path.media;
+      const MediaStack here =
+          at.is_inside && !path.media.contains(at.hit.body) ? path.media.with(at.hit.body) : path.media;
       beyond = at.is_inside ? here.without(at.hit.body) : here.with(at.hit.body);
       ior_from = here.ior(scene_), ior_to = beyond.ior(scene_);
     }
@@ -126,9 +126,8 @@ class Sample {
       kr += kt * through.fresnel, kt *= 1.0 - through.fresnel;
     }
     const Vec3 mirror = reflected(path.ray.direction, at.geometric, at.shading);
-    push(path, at, ReferenceRayKind::reflected, kr, mirror, path.media, [](const Vec3& d, const ShadingPoint& s) {
-      return std::optional(reflected(d, s.geometric, s.shading));
-    });
+    push(path, at, ReferenceRayKind::reflected, kr, mirror, path.media,
+         [](const Vec3& d, const ShadingPoint& s) { return std::optional(reflected(d, s.geometric, s.shading)); });
     push(path, at, ReferenceRayKind::refracted, kt, through.direction.value_or(mirror), std::move(beyond),
          [&](const Vec3& d, const ShadingPoint& s) {
            return refracted(d, s.geometric, s.shading, ior_from, ior_to).direction;

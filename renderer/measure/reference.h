@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference renderer: a small recursive ray tracer (Whitted 1980) in double, scalar and plain, written from the model
-// and not from the kernels. It judges them, so it is made to be believed and not to be fast: an opening position of
-// chess at 1280x720 takes a minute or two. Deterministic; any thread.
+// The reference renderer: a small recursive ray tracer (Whitted 1980) in double, scalar and plain, written from the
+// model and not from the kernels. It judges them, so it is made to be believed and not to be fast: an opening position
+// of chess at 1280x720 takes a minute or two. Deterministic; any thread.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ constexpr uint64_t surface_id(uint32_t body, uint32_t triangle) { return uint64_
 
 // What one sample saw.
 struct ReferencePixel {
-  Color color{0.0};                     // linear RGB
-  uint64_t primary_id = kNothingHit;    // the first surface on the ray from the eye
+  Color color{0.0};                   // linear RGB
+  uint64_t primary_id = kNothingHit;  // the first surface on the ray from the eye
   // The smallest edge of a checker cell among all that the sample saw, directly, in mirrors and through glass, in
   // pixels; 0 where it cannot be told. Under about 1/4 two renderers cannot be expected to agree on the cell.
   double checker_cell_px = std::numeric_limits<double>::infinity();
@@ -31,11 +31,11 @@ struct ReferencePixel {
 
 // The eye, made ready for one view.
 struct ReferenceEye {
-  Vec3 position{0.0};                   // scene units
+  Vec3 position{0.0};                        // scene units
   Vec3 forward{0.0}, right{0.0}, down{0.0};  // right and down: from one pixel to the next, on the plane at forward
   bool is_perspective = true;
-  double center_x = 0.0, center_y = 0.0;     // of the image, pixels
-  std::vector<uint32_t> media;          // in which the eye lies, outermost first
+  double center_x = 0.0, center_y = 0.0;  // of the image, pixels
+  std::vector<uint32_t> media;            // in which the eye lies, outermost first
   RenderSpec render;
 };
 ReferenceEye make_reference_eye(const ReferenceScene& scene, const View& view, const Camera& camera);

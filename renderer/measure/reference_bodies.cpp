@@ -19,10 +19,14 @@ int dominant_axis(const Vec3& v) {
 
 bool is_solid_body(const Body& body) {
   switch (body.kind) {
-    case BodyKind::sphere: return true;
-    case BodyKind::box: return std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
-    case BodyKind::plane: return false;
-    case BodyKind::mesh: return body.mesh->closed;
+    case BodyKind::sphere:
+      return true;
+    case BodyKind::box:
+      return std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
+    case BodyKind::plane:
+      return false;
+    case BodyKind::mesh:
+      return body.mesh->closed;
   }
   return false;
 }
@@ -30,7 +34,8 @@ bool is_solid_body(const Body& body) {
 Box world_bounds(const ReferenceBody& body) {
   Box box;
   switch (body.kind) {
-    case BodyKind::plane: return {Vec3(-kInfinity), Vec3(kInfinity)};
+    case BodyKind::plane:
+      return {Vec3(-kInfinity), Vec3(kInfinity)};
     case BodyKind::mesh:
       for (const Vec3& p : body.mesh->mesh->positions) box.include(body.world_point(p));
       break;
@@ -125,14 +130,17 @@ AnalyticHits plane_hits(uint32_t id, const Ray& ray, const Vec3& o, const Vec3& 
 
 Vec3 local_normal(const ReferenceBody& body, const Hit& hit) {
   switch (body.kind) {
-    case BodyKind::sphere: return hit.local;
-    case BodyKind::plane: return {0.0, 1.0, 0.0};
+    case BodyKind::sphere:
+      return hit.local;
+    case BodyKind::plane:
+      return {0.0, 1.0, 0.0};
     case BodyKind::box: {
       Vec3 n(0.0);
       n[hit.face] = std::copysign(1.0, hit.local[hit.face]);
       return n;
     }
-    case BodyKind::mesh: break;
+    case BodyKind::mesh:
+      break;
   }
   const TriMesh& mesh = *body.mesh->mesh;
   const auto& [a, b, c] = corners(mesh, hit.triangle);
@@ -172,10 +180,14 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
 AnalyticHits analytic_hits(const ReferenceBody& body, uint32_t id, const Ray& ray) {
   const Vec3 o = body.local_point(ray.origin), d = body.local_from_world * ray.direction;
   switch (body.kind) {
-    case BodyKind::sphere: return sphere_hits(id, ray, o, d);
-    case BodyKind::box: return box_hits(body, id, ray, o, d);
-    case BodyKind::plane: return plane_hits(id, ray, o, d);
-    case BodyKind::mesh: break;
+    case BodyKind::sphere:
+      return sphere_hits(id, ray, o, d);
+    case BodyKind::box:
+      return box_hits(body, id, ray, o, d);
+    case BodyKind::plane:
+      return plane_hits(id, ray, o, d);
+    case BodyKind::mesh:
+      break;
   }
   return {};
 }
@@ -214,8 +226,7 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit) {
   SurfacePoint s{body.world_point(hit.local), n, n};
   if (body.kind == BodyKind::mesh && !body.mesh->mesh->corner_normals.empty()) {
     const auto& normals = body.mesh->mesh->corner_normals[hit.triangle];
-    const Vec3 sum =
-        hit.barycentric.x * normals[0] + hit.barycentric.y * normals[1] + hit.barycentric.z * normals[2];
+    const Vec3 sum = hit.barycentric.x * normals[0] + hit.barycentric.y * normals[1] + hit.barycentric.z * normals[2];
     const Vec3 world = body.normal_from_local * sum;
     if (glm::dot(world, world) > 0.0) s.shading = glm::normalize(world);  // opposite normals cancel: the geometric one
   }

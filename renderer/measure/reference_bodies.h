@@ -15,18 +15,18 @@ namespace tilelight::reference {
 
 inline constexpr uint32_t kNoBody = ~0u;
 
-// Distances under kRounding * (size of the numbers involved) are rounding noise: transforming a point into a local frame
-// and back costs some 20 roundings of 2^-53 each; the rest is margin.
+// Distances under kRounding * (size of the numbers involved) are rounding noise: transforming a point into a local
+// frame and back costs some 20 roundings of 2^-53 each; the rest is margin.
 inline constexpr double kRounding = 0x1p-46;
 
 // A point on a body's surface, kept in local space, where it can lie on the surface exactly.
 struct Hit {
-  double t = 0.0;            // along the ray, in lengths of its direction
+  double t = 0.0;  // along the ray, in lengths of its direction
   uint32_t body = kNoBody;
-  uint32_t triangle = 0;     // meshes
-  int face = 0;              // boxes: axis of the face
-  Vec3 local{0.0};           // meshes: rounded; other kinds: on the surface
-  Vec3 barycentric{0.0};     // meshes
+  uint32_t triangle = 0;  // meshes
+  int face = 0;           // boxes: axis of the face
+  Vec3 local{0.0};        // meshes: rounded; other kinds: on the surface
+  Vec3 barycentric{0.0};  // meshes
 };
 
 // What a ray that starts on a surface does with other bodies' surfaces in the very same place (a glass foot standing on
@@ -38,7 +38,7 @@ struct Ray {
   Vec3 origin{0.0}, direction{0.0};  // direction of unit length
   Hit left{};                        // the surface it starts on; body = kNoBody for a ray from the eye
   Coincident coincident = Coincident::none;
-  double noise = 0.0;                // distances of this size around the origin are rounding
+  double noise = 0.0;  // distances of this size around the origin are rounding
 };
 
 // One mesh with its tree; shared by instances.
@@ -60,9 +60,9 @@ struct ReferenceBody {
   Mat3 pattern_normal_from_local;
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
-  bool is_solid;       // has an inside: light can be bent on its way in and out
-  Box bounds;          // world space; infinite for planes
-  double extent;       // largest coordinate of the bounds; planes: of their point
+  bool is_solid;  // has an inside: light can be bent on its way in and out
+  Box bounds;     // world space; infinite for planes
+  double extent;  // largest coordinate of the bounds; planes: of their point
 
   Vec3 local_point(const Vec3& world) const { return local_from_world * (world - translation); }
   Vec3 world_point(const Vec3& local) const { return world_from_local * local + translation; }
@@ -103,7 +103,8 @@ struct ShearedRay {
 std::optional<Hit> triangle_hit(const TriMesh& mesh, uint32_t body, uint32_t triangle, const ShearedRay& ray);
 
 // Where a neighbouring ray meets the same surface, extended beyond its edges. None if it misses.
-std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, const Vec3& origin, const Vec3& direction);
+std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, const Vec3& origin,
+                                    const Vec3& direction);
 
 // Whether a point is inside the solid, and how far from its surface along `direction`; none if outside.
 std::optional<double> exit_distance(const ReferenceBody& body, const Vec3& point, const Vec3& direction);

@@ -19,9 +19,12 @@ struct Incidence {
 
 double attenuation_factor(const Attenuation& attenuation, double distance) {
   switch (attenuation.mode) {
-    case AttenuationMode::linear: return 1.0 / (distance + attenuation.k);
-    case AttenuationMode::inverse_square: return 1.0 / (distance * distance + attenuation.k);
-    case AttenuationMode::none: return 1.0;
+    case AttenuationMode::linear:
+      return 1.0 / (distance + attenuation.k);
+    case AttenuationMode::inverse_square:
+      return 1.0 / (distance * distance + attenuation.k);
+    case AttenuationMode::none:
+      return 1.0;
   }
   return 1.0;
 }

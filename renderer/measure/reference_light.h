@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light equation of the reference renderer: what a surface sends to the viewer by itself, without mirrors and glass.
-// Pure; any thread.
+// The light equation of the reference renderer: what a surface sends to the viewer by itself, without mirrors and
+// glass. Pure; any thread.
 #pragma once
 
 #include "renderer/measure/reference_scene.h"
@@ -18,7 +18,8 @@ struct ShadingPoint {
 };
 ShadingPoint shading_point(const ReferenceBody& body, const Hit& hit, const Vec3& direction);
 
-// cos(angle)^n between two unit vectors with a positive cosine, exact for huge n: 1 - R.V = |R - V|^2 / 2 does not cancel.
+// cos(angle)^n between two unit vectors with a positive cosine, exact for huge n: 1 - R.V = |R - V|^2 / 2 does not
+// cancel.
 double phong_lobe(const Vec3& r, const Vec3& v, double n);
 
 // The colour of a paint at a hit.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MediaStack: the media a ray is in. Where media overlap the one of the highest priority is there and the others are not
-// (Schmidt and Budge 2002, Journal of Graphics Tools 7(4)); of equal priorities the one entered last.
+// MediaStack: the media a ray is in. Where media overlap the one of the highest priority is there and the others are
+// not (Schmidt and Budge 2002, Journal of Graphics Tools 7(4)); of equal priorities the one entered last.
 #pragma once
 
 #include <algorithm>

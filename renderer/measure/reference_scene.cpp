@@ -69,8 +69,8 @@ Ray ReferenceScene::ray_from(const Hit& left, const Vec3& direction, Coincident 
   return {origin, direction, left, coincident, kRounding * std::max(largest(origin), body.extent)};
 }
 
-// Whether a hit lies ahead of the ray's start. Where the start itself lies on the hit surface within rounding, the order
-// of ids decides instead of the sign of t.
+// Whether a hit lies ahead of the ray's start. Where the start itself lies on the hit surface within rounding, the
+// order of ids decides instead of the sign of t.
 bool ReferenceScene::is_ahead(const Ray& ray, const Hit& hit) const {
   if (ray.left.body == kNoBody) return hit.t > 0.0;
   if (std::fabs(hit.t) > ray.noise * kGraze) return hit.t > 0.0;
@@ -78,9 +78,12 @@ bool ReferenceScene::is_ahead(const Ray& ray, const Hit& hit) const {
   if (std::fabs(hit.t) * steepness(body, hit, ray.direction) > ray.noise) return hit.t > 0.0;
   if (hit.body == ray.left.body) return false;
   switch (ray.coincident) {
-    case Coincident::none: return false;
-    case Coincident::after: return hit.body > ray.left.body;
-    case Coincident::before: return hit.body < ray.left.body;
+    case Coincident::none:
+      return false;
+    case Coincident::after:
+      return hit.body > ray.left.body;
+    case Coincident::before:
+      return hit.body < ray.left.body;
   }
   return false;
 }
@@ -90,8 +93,8 @@ bool ReferenceScene::is_before(const Ray& ray, const Hit& hit, const Hit& best) 
   const double noise = kRounding * (largest(ray.origin) + std::fabs(best.t));
   const double gap = std::fabs(hit.t - best.t);
   if (gap > noise * kGraze) return hit.t < best.t;
-  const double slope = std::max(steepness(bodies_[hit.body], hit, ray.direction),
-                                steepness(bodies_[best.body], best, ray.direction));
+  const double slope =
+      std::max(steepness(bodies_[hit.body], hit, ray.direction), steepness(bodies_[best.body], best, ray.direction));
   if (gap * slope > noise) return hit.t < best.t;
   return hit.body != best.body ? hit.body < best.body : hit.triangle < best.triangle;
 }
