@@ -70,7 +70,7 @@ Camera framed_camera(const CompiledScene& scene, int width, int height) {
   return camera;
 }
 
-ViewPlan plan_view(const CompiledScene& scene, const View& view) {
+ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_view isa) {
   const Stopwatch watch;
   ViewPlan out;
   out.view = view;
@@ -94,7 +94,10 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view) {
     leave_out(Feature::nested_media, "max_depth is 0: local light only");
     leave_out(Feature::fresnel, "max_depth is 0: local light only");
   }
+  out.variant = choose_variant(out.features);
   out.plan.features = out.features;
+  out.plan.kernel = variant_name(out.variant);
+  out.plan.isa = isa;
   out.plan.plan_ms = watch.ms();
   return out;
 }

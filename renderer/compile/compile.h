@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "renderer/compile/eye.h"
 #include "renderer/compile/plan.h"
@@ -26,9 +27,11 @@ struct ViewPlan {
   Camera camera;     // as used, user's units
   Eye eye;           // the camera in normalised space
   FeatureSet features;
+  KernelVariant variant = KernelVariant::local;
   Plan plan;         // the scene's plan and what this view adds to it
 };
-ViewPlan plan_view(const CompiledScene& scene, const View& view);
+// isa: the instruction set the kernels are dispatched to; render.h has a plan_view that knows it.
+ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_view isa);
 
 // A camera that frames the finite bodies from azimuth 30, elevation 25 degrees with 5 % margin.
 Camera framed_camera(const CompiledScene& scene, int width, int height);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/compile/compiled_mesh.h"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <map>
 
 #include "renderer/compile/normalise.h"
@@ -33,8 +34,10 @@ void share_normals(const TriMesh& mesh, CompiledMesh& out) {
 
 TriangleBlock make_block(const CompiledMesh& mesh, const WideBvh::Leaf& leaf) {
   TriangleBlock block;
-  for (uint32_t lane = 0; lane < 8; ++lane) {
-    const uint32_t id = mesh.bvh.order[leaf.first + std::min(lane, leaf.count - 1)];
+  std::fill_n(&block.vertex[0][0][0], 3 * 3 * 8, std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(block.id, 8, ~uint32_t{0});
+  for (uint32_t lane = 0; lane < leaf.count; ++lane) {
+    const uint32_t id = mesh.bvh.order[leaf.first + lane];
     block.id[lane] = id;
     for (int v = 0; v < 3; ++v) {
       const Vec3& p = mesh.positions[mesh.triangles[id][v]];

@@ -15,8 +15,8 @@
 
 namespace tilelight {
 
-// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places repeat
-// the last triangle and carry its id.
+// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places are NaN,
+// which no comparison lets through.
 struct alignas(64) TriangleBlock {
   float vertex[3][3][8];
   uint32_t id[8];

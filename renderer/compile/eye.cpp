@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/compile/eye.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/base/elementary.h"

@@ -32,6 +32,11 @@ class FeatureSet {
   uint32_t bits_ = 0;
 };
 
+// The kernel variants, leanest first: what each can do is compiled into it and nothing else.
+enum class KernelVariant { local, local_shadows, mirrors, mirrors_shadows, glass, glass_shadows };
+KernelVariant choose_variant(const FeatureSet& features);
+std::string_view variant_name(KernelVariant variant);
+
 // One thing that costs nothing because this scene or this view cannot show it.
 struct LeftOut {
   std::string what;  // "light objects/2", "feature reflection", "material ivory", ...

@@ -17,6 +17,9 @@
 
 namespace tilelight {
 
+// plan_view for the instruction set in use.
+ViewPlan plan_view(const CompiledScene& scene, const View& view);
+
 enum class RenderState { running, done, cancelled, failed };
 
 struct RayCounts {

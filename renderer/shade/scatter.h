@@ -13,7 +13,6 @@ Vec3 mirror_direction(const Surface& surface, const Vec3& incoming);
 struct Scatter {
   Vec3 mirrored{0.0}, refracted{0.0};          // unit
   Color mirror_weight{0.0}, refract_weight{0.0};
-  bool is_unseen = false;  // the media on both sides are the same: the ray goes on as if nothing were there
 };
 
 // A surface that only reflects: kr.

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/film/tone.h"
+#include "renderer/render/explain.h"
+#include "renderer/trace/tile_job.h"
+
+namespace tilelight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+// Gathers the rays of one sample; places are told in the user's units.
+class Explainer : public RayListener {
+ public:
+  explicit Explainer(const CompiledScene& scene) : scene_(scene) {}
+
+  void on_ray(const Event& event) override {
+    rays.push_back({{"depth", event.depth},
+                    {"kind", event.kind},
+                    {"weight", json_of(event.weight)},
+                    {"origin", json_of(user_point(event.ray.origin))},
+                    {"direction", json_of(event.ray.direction)}});
+    Json& ray = rays.back();
+    color += event.weight * event.local;
+    if (event.surface == nullptr) {
+      ray["hit"] = nullptr;
+      ray["background"] = json_of(event.local);
+      return;
+    }
+    const Surface& s = *event.surface;
+    ray["hit"] = {{"object", s.body->name},
+                  {"body", s.body->body},
+                  {"primitive", event.hit.prim},
+                  {"t", event.hit.t * scene_.units},
+                  {"position", json_of(user_point(s.position))},
+                  {"normal", json_of(s.normal)},
+                  {"geometric_normal", json_of(s.geometric_normal)},
+                  {"side", s.from_outside ? "outside" : "inside"},
+                  {"material", s.material->source.name}};
+    ray["ambient"] = json_of(event.local);
+    ray["lights"] = Json::array();
+    weight_ = event.weight;
+  }
+
+  void on_light(const CompiledLight& light, const LightSample& sample, const Color& visible) override {
+    color += weight_ * visible * (sample.diffuse + sample.specular);
+    Json& lights = rays.back()["lights"];
+    lights.push_back({{"light", "lights/" + std::to_string(light.light)}, {"faces_light", sample.is_lit}});
+    if (!sample.is_lit) return;
+    Json& out = lights.back();
+    out["distance"] = std::isfinite(sample.distance) ? Json(sample.distance * scene_.units) : Json(nullptr);
+    out["arriving"] = json_of(sample.arriving);
+    out["diffuse"] = json_of(sample.diffuse);
+    out["specular"] = json_of(sample.specular);
+    out["visible"] = json_of(visible);
+  }
+
+  Json rays = Json::array();
+  Color color{0.0};
+
+ private:
+  Vec3 user_point(const Vec3& p) const { return p * scene_.units + scene_.center; }
+
+  const CompiledScene& scene_;
+  Color weight_{1.0};
+};
+
+}  // namespace
+
+Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPlan& plan, int x, int y, int sample) {
+  const ImageSpec& image = plan.view.image;
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height || sample < 0) {
+    return fail("out_of_range", "pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the image of " +
+                                    std::to_string(image.width) + "x" + std::to_string(image.height) +
+                                    "; allowed: 0.." + std::to_string(image.width - 1) + ", 0.." +
+                                    std::to_string(image.height - 1));
+  }
+  Explainer explainer(scene);
+  const MediaSet eye_media = media_at_eye(scene, plan);
+  TileCounts counts;
+  TileJob job;
+  job.scene = &scene;
+  job.plan = &plan;
+  job.eye_media = &eye_media;
+  job.rect = {x, y, x + 1, y + 1};
+  job.first_sample = static_cast<uint32_t>(sample);
+  job.counts = &counts;
+  job.listener = &explainer;
+  explain_kernel()(job);
+
+  Json srgb = Json::array();
+  for (int c = 0; c < 3; ++c) {
+    srgb.push_back(static_cast<int>(displayed(explainer.color[c], image.exposure) * 255.0 + 0.5));
+  }
+  const Json out = {{"pixel", {x, y}},
+                    {"sample", sample},
+                    {"color_linear", json_of(explainer.color)},
+                    {"color_srgb8", srgb},
+                    {"untraced_weight", counts.untraced_weight},
+                    {"rays", explainer.rays}};
+  return out.dump();
+}
+
+}  // namespace tilelight

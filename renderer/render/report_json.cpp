@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "renderer/render/render.h"
+
+namespace tilelight {
+
+std::string report_json(const RenderReport& report, const Plan& plan) {
+  using Json = nlohmann::ordered_json;
+  Json points = Json::array();
+  for (const ReportPoint& p : report.points) {
+    points.push_back({{"pass", p.pass},
+                      {"spp", p.spp},
+                      {"elapsed_ms", p.elapsed_ms},
+                      {"cpu_ms", p.cpu_ms},
+                      {"rays",
+                       {{"primary", p.rays.primary},
+                        {"shadow", p.rays.shadow},
+                        {"reflected", p.rays.reflected},
+                        {"refracted", p.rays.refracted}}},
+                      {"truncation_bound", p.truncation_bound < 0.0 ? Json(nullptr) : Json(p.truncation_bound)},
+                      {"nonfinite", p.nonfinite}});
+  }
+  const Json out = {{"points", points},         {"stop", report.stop},       {"passes", report.passes},
+                    {"threads", report.threads}, {"kernel", plan.kernel},     {"isa", plan.isa}};
+  return out.dump();
+}
+
+}  // namespace tilelight

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact intersections, in double: what the float filters let through is decided here, and nowhere else. All
+// work in a body's local space; t is that of the world ray, whose direction is unit. Pure; any thread.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/compile/compiled_scene.h"
+#include "renderer/shade/ray.h"
+
+namespace tilelight {
+
+// A ray in a body's local space; the direction keeps its length, so t means the same as in the world.
+struct LocalRay {
+  Vec3 origin{0.0}, direction{0.0};
+};
+inline LocalRay to_local(const CompiledBody& body, const Ray& ray) {
+  return {transform_point(body.local_from_world, ray.origin), transform_vector(body.local_from_world, ray.direction)};
+}
+
+// Rounding of a point near the scene, normalised units: hits nearer than this to the surface just left are its own.
+inline double t_min_of(const Ray& ray) {
+  if (ray.left.body == kNone) return 0.0;
+  return 0x1p-40 * (1.0 + std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z));
+}
+
+// Unit sphere. Hearn and Baker's form (Haines et al., Ray Tracing Gems ch. 7): the discriminant as a squared distance from
+// the centre, and no difference of nearly equal numbers in the roots. has_left: the origin lies on the sphere.
+inline bool intersect_sphere(const LocalRay& ray, bool has_left, double t_min, double& t) {
+  const Vec3 &o = ray.origin, &d = ray.direction;
+  const double a = glm::dot(d, d);
+  const double b = -glm::dot(o, d);
+  const Vec3 nearest = o + (b / a) * d;
+  const double discriminant = 1.0 - glm::dot(nearest, nearest);
+  if (!(discriminant >= 0.0)) return false;
+  const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+  if (has_left) {  // one root is the origin itself; the other lies ahead only for a ray that goes inward
+    if (!(b > 0.0)) return false;
+    t = q / a;
+    return true;
+  }
+  const double c = glm::dot(o, o) - 1.0;
+  const double r0 = c / q, r1 = q / a;
+  const double near = std::fmin(r0, r1), far = std::fmax(r0, r1);
+  t = near > t_min ? near : far;
+  return t > t_min;
+}
+
+// The box [-half, half] by its three slabs; the faces belong to it. left_face: the face the origin lies on, or kNone.
+inline bool intersect_box(const Vec3& half, const LocalRay& ray, uint32_t left_face, double t_min, double& t,
+                          uint32_t& face) {
+  if (left_face != kNone) {
+    const int axis = static_cast<int>(left_face / 2);
+    const bool is_outward = left_face % 2 ? ray.direction[axis] >= 0.0 : ray.direction[axis] <= 0.0;
+    if (is_outward || half[axis] == 0.0) return false;
+  }
+  double near = -std::numeric_limits<double>::infinity(), far = std::numeric_limits<double>::infinity();
+  uint32_t near_face = 0, far_face = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double o = ray.origin[axis], d = ray.direction[axis];
+    if (d == 0.0) {
+      if (std::abs(o) > half[axis]) return false;
+      continue;
+    }
+    const bool is_upward = d > 0.0;
+    const double enter = ((is_upward ? -half[axis] : half[axis]) - o) / d;
+    const double leave = ((is_upward ? half[axis] : -half[axis]) - o) / d;
+    const auto base = static_cast<uint32_t>(2 * axis);
+    if (enter > near) near = enter, near_face = base + (is_upward ? 0 : 1);
+    if (leave < far) far = leave, far_face = base + (is_upward ? 1 : 0);
+  }
+  constexpr double kSlack = 1.0 + 0x1p-50;  // of the two quotients: an edge belongs to the box (Ize 2013)
+  if (!(near <= (far > 0.0 ? far * kSlack : far))) return false;
+  const bool from_outside = left_face == kNone && near > t_min;
+  t = from_outside ? near : far;
+  face = from_outside ? near_face : far_face;
+  return t > t_min;
+}
+
+// The plane y = 0.
+inline bool intersect_plane(const LocalRay& ray, bool has_left, double t_min, double& t) {
+  if (has_left || ray.direction.y == 0.0) return false;
+  t = -ray.origin.y / ray.direction.y;
+  return t > t_min;
+}
+
+// Watertight triangle test in double (Woop, Benthin and Wald 2013, JCGT 2(1)): the triangle is sheared so that the ray
+// is the z axis, and three edge functions decide. They are antisymmetric bit for bit, so a ray between two triangles hits
+// at least one; an edge value of 0 counts as inside for both, and the lower id wins.
+struct Shear {
+  int kx = 0, ky = 1, kz = 2;
+  double sx = 0.0, sy = 0.0, sz = 1.0;
+
+  explicit Shear(const Vec3& d) {
+    const Vec3 a = glm::abs(d);
+    kz = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    sz = 1.0 / d[kz];
+    sx = d[kx] * sz, sy = d[ky] * sz;
+  }
+};
+
+struct TriangleHit {
+  double t, b0, b1;
+};
+inline bool intersect_triangle(const Vec3& v0, const Vec3& v1, const Vec3& v2, const Vec3& origin, const Shear& s,
+                               TriangleHit& hit) {
+  const Vec3 a = v0 - origin, b = v1 - origin, c = v2 - origin;
+  const double ax = a[s.kx] - s.sx * a[s.kz], ay = a[s.ky] - s.sy * a[s.kz];
+  const double bx = b[s.kx] - s.sx * b[s.kz], by = b[s.ky] - s.sy * b[s.kz];
+  const double cx = c[s.kx] - s.sx * c[s.kz], cy = c[s.ky] - s.sy * c[s.kz];
+  const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return false;
+  const double det = u + v + w;
+  if (det == 0.0) return false;  // seen edge on: no area
+  const double scale = 1.0 / det;
+  hit.t = (u * a[s.kz] + v * b[s.kz] + w * c[s.kz]) * s.sz * scale;
+  hit.b0 = u * scale;
+  hit.b1 = v * scale;
+  return true;
+}
+
+// Two hits closer than the rounding of t in double are a tie, which the lower id wins, so that
+// coplanar surfaces show one colour everywhere.
+inline bool is_nearer(double t, uint32_t public_body, uint32_t prim, const Hit& best, uint32_t best_public_body) {
+  if (!best.is_hit()) return true;
+  const double tie = 0x1p-46 * (1.0 + std::abs(t));
+  if (t < best.t - tie) return true;
+  if (t > best.t + tie) return false;
+  return public_body != best_public_body ? public_body < best_public_body : prim < best.prim;
+}
+
+}  // namespace tilelight

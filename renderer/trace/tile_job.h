@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. One dispatched call a work
+// item: the kernel traces `sample_count` samples of every pixel of the tile and adds them to the film in index order.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/compile/compile.h"
+#include "renderer/compile/compiled_scene.h"
+#include "renderer/film/film.h"
+#include "renderer/shade/light_equation.h"
+#include "renderer/shade/media.h"
+
+namespace tilelight {
+
+// What a work item did; summed over items in any order (integers and maxima only).
+struct TileCounts {
+  int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;  // rays
+  int64_t nonfinite = 0;          // samples that were not finite
+  double untraced_weight = 0.0;   // largest weight one sample left untraced
+  bool is_complete = false;       // false: cancelled on the way; the tile holds part of its samples
+};
+
+// Writes down every ray of one sample, for explanations. Called in breadth-first order.
+class RayListener {
+ public:
+  virtual ~RayListener() = default;
+  struct Event {
+    int depth = 0;
+    const char* kind = "primary";  // primary, reflected, refracted
+    Ray ray;
+    Color weight{1.0};
+    Hit hit;
+    const Surface* surface = nullptr;  // null: a miss
+    Color local{0.0};                  // ambient part, or the background
+  };
+  virtual void on_ray(const Event& event) = 0;
+  // Follows the on_ray of its surface. visible: by channel, 0 in shadow.
+  virtual void on_light(const CompiledLight& light, const LightSample& sample, const Color& visible) = 0;
+};
+
+struct TileJob {
+  const CompiledScene* scene = nullptr;
+  const ViewPlan* plan = nullptr;
+  const MediaSet* eye_media = nullptr;     // of an eye inside glass
+  TileView* film = nullptr;                // null: nothing is written (explanations)
+  TileRect rect;
+  uint32_t first_sample = 0, sample_count = 1;
+  const std::atomic<bool>* cancelled = nullptr;  // read every row; may be null
+  TileCounts* counts = nullptr;
+  RayListener* listener = nullptr;         // kernel `explain` only
+};
+
+using Kernel = void (*)(const TileJob&);
+
+Kernel kernel_of(KernelVariant variant);
+Kernel explain_kernel();
+
+// The media around the view's eye.
+MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan);
+
+}  // namespace tilelight

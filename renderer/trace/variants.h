@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernel variants: one instantiation file each, each compiled for every instruction set and dispatched at run time.
+#pragma once
+
+#include "renderer/trace/tile_job.h"
+
+namespace tilelight {
+
+void run_local(const TileJob& job);
+void run_local_shadows(const TileJob& job);
+void run_mirrors(const TileJob& job);
+void run_mirrors_shadows(const TileJob& job);
+void run_glass(const TileJob& job);
+void run_glass_shadows(const TileJob& job);
+void run_explain(const TileJob& job);
+
+}  // namespace tilelight
