@@ -68,8 +68,9 @@ void build_stop_rules(Value value, RenderSpec& render, const Limits& limits, Pro
     render.samples = render.time_ms ? limits.samples : std::min(kDefaultSamples, limits.samples);
   }
   if (const Value samples = find_accepted(value, "samples")) {
-    render.samples_asked = true;
     render.samples = static_cast<int>(samples.number());
+  } else {
+    render.samples_implied = true;
   }
 }
 

@@ -44,7 +44,9 @@ struct ParsedScene {
 // Parses a whole scene document. Never throws on bad input; takes no memory for what exceeds a limit.
 ::tl::expected<ParsedScene, SceneErrors> parse_scene(std::string_view text, const Limits& limits);
 
-// Parses {"camera"?, "image"?, "render"?} and merges it key by key over `base`.
+// Parses {"camera"?, "image"?, "render"?} and merges it key by key over `base` (RFC 7396: null takes a key back to its
+// default; without a camera the scene is framed). Pointers are into `text`; an error that lies in the base alone, or
+// only in its meeting with `text`, has no line.
 ::tl::expected<View, SceneErrors> parse_view(std::string_view text, const View& base, const Limits& limits);
 
 // A chess position from a FEN, or from its placement field alone.

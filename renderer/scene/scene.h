@@ -147,7 +147,7 @@ struct RenderSpec {
   uint32_t seed = 0;
   // Stop rules; the first that holds ends the render.
   std::optional<int> samples;     // a pixel; parsing always sets it
-  bool samples_asked = false;     // false: `samples` follows from the other rules or is the default
+  bool samples_implied = false;   // nobody asked for `samples`: it follows from the other rules or is the default
   std::optional<double> time_ms;
   std::vector<int> passes;        // an exact replay; empty = not asked for
 };
