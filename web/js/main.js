@@ -6,7 +6,7 @@ import { byId } from './dom.js';
 import { Editor } from './editor.js';
 import { FenField } from './fen.js';
 import { Panels } from './panels.js';
-import { showPlan } from './plan.js';
+import { showPlan, showTimings } from './plan.js';
 import { findPosition, sameCamera, withFen } from './scene_text.js';
 import { ScenePicker } from './scenes.js';
 import { Superseded } from './session.js';
@@ -20,7 +20,10 @@ const hideHint = showHint();
 const viewer = new Viewer(byId('picture'), {
   api,
   on: {
-    frame: (event) => status.show(event),
+    frame: (event) => {
+      status.show(event);
+      if (event.frame.isFinal && !event.moving) showTimings(byId('plan-body'), event.frame.timings);
+    },
     state: (name, problem) => status.state(name, problem),
     moved: hideHint,
   },

@@ -3,6 +3,7 @@
 import { el } from './dom.js';
 
 const kCount = new Intl.NumberFormat('en');
+const kTimingNames = { parse: 'Reading', queue: 'Waiting', compile: 'Compiling', render: 'Rendering', encode: 'Encoding' };
 
 export function showPlan(container, info) {
   const plan = info.plan ?? {};
@@ -11,7 +12,19 @@ export function showPlan(container, info) {
     block('Left out', leftOut(plan.left_out ?? [])),
     ...(info.warnings?.length ? [block('Worth a look', warnings(info.warnings))] : []),
     block('In numbers', facts(plan)),
+    el('section', { class: 'this-picture', hidden: true }),
   );
+}
+
+// What the server spent on the picture on show: `timings` in milliseconds by name.
+export function showTimings(container, timings) {
+  const place = container.querySelector('.this-picture');
+  const rows = Object.entries(timings);
+  if (!place || rows.length === 0) return;
+  place.hidden = false;
+  place.replaceChildren(el('h3', {}, 'This picture'),
+    el('dl', { class: 'facts' },
+      ...rows.flatMap(([name, ms]) => [el('dt', {}, kTimingNames[name] ?? words(name)), el('dd', {}, milliseconds(ms))])));
 }
 
 function block(title, ...content) {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server on a free port, a browser with a fresh profile, and pages that keep account of what went wrong in them.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdir, mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { chromium } from 'playwright-core';
+
+const kBrowserFlags = [
+  '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  '--disable-component-update', '--disable-sync',
+];
+const kShots = new URL('./shots/', import.meta.url).pathname;
+const kPatienceMs = 60_000;  // a first picture on a busy machine
+
+export const kDesktop = { viewport: { width: 1440, height: 900 } };
+export const kPhone = { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+
+// Starts the server; {url, stop()}.
+export async function startServer() {
+  const server = spawn(process.env.TILELIGHTD, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0',
+    '--data-dir', ':memory:'], { stdio: ['ignore', 'pipe', 'pipe'] });
+  const ended = new Promise((resolve) => server.once('exit', resolve));
+  let output = '';
+  const url = await new Promise((resolve, reject) => {
+    const read = (text) => {
+      output += text;
+      const line = output.split('\n').slice(0, -1).find((one) => /http:\/\//.test(one) && !/admin/i.test(one));
+      if (line) resolve(/http:\/\/[\w.:[\]]+/.exec(line)[0]);
+    };
+    server.stdout.on('data', read);
+    server.stderr.on('data', read);
+    ended.then((code) => reject(new Error(`The server ended with ${code}:\n${output}`)));
+  });
+  return {
+    url,
+    stop: async () => {
+      server.kill('SIGTERM');
+      await ended;
+    },
+  };
+}
+
+// Runs `body({page, server, context})` on a loaded page with a finished first picture, and holds the page to a clean
+// console: no errors, no exceptions, no breach of the content security policy. `expected` = patterns of console lines
+// that the test provokes.
+export async function onPage({ server, settings = kDesktop, path: where = '/', expected = [] }, body) {
+  const profile = await mkdtemp(path.join(tmpdir(), 'tilelight-browser-'));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath: process.env.CHROMIUM, args: kBrowserFlags, headless: true, ...settings,
+  });
+  try {
+    const page = context.pages()[0];
+    page.setDefaultTimeout(kPatienceMs);
+    const complaints = watch(page, expected);
+    await page.addInitScript(`window.lookOf = ${lookOf}`);
+    await page.goto(server.url + where);
+    await finished(page);
+    await body({ page, server, context });
+    assert.deepEqual(complaints, [], 'the console is clean');
+  } finally {
+    await context.close();
+    await rm(profile, { recursive: true, force: true });
+  }
+}
+
+function watch(page, expected) {
+  const complaints = [];
+  const complain = (text) => expected.some((pattern) => pattern.test(text)) || complaints.push(text);
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complain(message.text()));
+  page.on('pageerror', (error) => complain(String(error.stack ?? error)));
+  page.on('request', (request) => {
+    const { protocol, hostname } = new URL(request.url());
+    if (protocol.startsWith('http') && hostname !== '127.0.0.1') complain(`asked another host: ${request.url()}`);
+  });
+  return complaints;
+}
+
+// Until the newest view has its last frame on the screen.
+export async function finished(page) {
+  await page.waitForFunction(() => document.getElementById('progress').getAttribute('aria-valuenow') === '100');
+}
+
+// Makes a movement and waits for the finished picture of its end.
+export async function afterMoving(page, move) {
+  const before = await look(page);
+  await move();
+  await page.waitForFunction((old) => window.lookOf(document.getElementById('picture')) !== old, before);
+  await finished(page);
+}
+
+// A fingerprint of what the canvas shows: equal strings mean equal pixels.
+export function look(page) {
+  return page.evaluate(() => window.lookOf(document.getElementById('picture')));
+}
+
+// The fingerprint of a PNG's pixels.
+export function lookOfPng(page, bytes) {
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    canvas.getContext('2d').drawImage(bitmap, 0, 0);
+    return window.lookOf(canvas);
+  }, bytes.toString('base64'));
+}
+
+// Runs in the page: size and FNV-1a hash of a canvas' colours.
+function lookOf(canvas) {
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let hash = 0x811c9dc5;
+  for (let i = 0; i < data.length; i += 4) {
+    hash = Math.imul(hash ^ ((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]), 0x01000193);
+  }
+  return `${canvas.width}x${canvas.height}:${hash >>> 0}`;
+}
+
+export async function shoot(page, name) {
+  await mkdir(kShots, { recursive: true });
+  await page.screenshot({ path: path.join(kShots, `${name}.png`) });
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// Panels and commands around the picture: scenes, editor, plan, and the ways to take a picture along.
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { mkdtemp, readFile, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { promisify } from 'node:util';
+import { afterMoving, finished, kDesktop, kPhone, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
+
+const run = promisify(execFile);
+const kPngSignature = '89504e470d0a1a0a';
+const kRefused = [/422/, /400/];  // the browser logs every refused request; here they are asked for
+
+let server;
+before(async () => { server = await startServer(); });
+after(() => server.stop());
+
+function pngSize(bytes) {
+  assert.equal(bytes.subarray(0, 8).toString('hex'), kPngSignature);
+  return { width: bytes.readUInt32BE(16), height: bytes.readUInt32BE(20) };
+}
+
+async function openPanel(page, name) {
+  await page.click(`#${name}-button`);
+  await page.waitForSelector(`#${name}-panel`);
+}
+
+// Puts the caret behind `text` in the editor, as a click would, so that what follows is typed there.
+async function caretAfter(page, text) {
+  await page.focus('#editor-text');
+  await page.evaluate((needle) => {
+    const area = document.getElementById('editor-text');
+    const at = area.value.indexOf(needle) + needle.length;
+    area.setSelectionRange(at, at);
+  }, text);
+}
+
+test('every scene of the picker has a title, a small picture, and can be shown', async () => {
+  await onPage({ server }, async ({ page }) => {
+    const titles = new Set();
+    await openPanel(page, 'scenes');
+    const count = await page.locator('.scene').count();
+    assert.ok(count >= 8);
+    await page.waitForFunction((n) => document.querySelectorAll('.scene-thumb img').length === n, count);
+    await shoot(page, 'desktop-scenes');
+    for (let i = 1; i <= count; ++i) {
+      await afterMoving(page, () => page.click(`li:nth-child(${i % count + 1}) > .scene`));
+      titles.add(await page.textContent('#scene-title'));
+      assert.equal(await page.locator('.scene[aria-current]').count(), 1);
+    }
+    assert.equal(titles.size, count);
+  });
+});
+
+test('a scene can be picked by keyboard alone, and Escape gives the focus back', async () => {
+  await onPage({ server }, async ({ page }) => {
+    await page.focus('#scenes-button');
+    await page.keyboard.press('Enter');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Tab');
+    await afterMoving(page, () => page.keyboard.press('Enter'));
+    assert.equal(await page.textContent('#scene-title'), 'Endgame');
+    await page.keyboard.press('Escape');
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'scenes-button');
+    assert.equal(await page.isVisible('#scenes-panel'), false);
+  });
+});
+
+test('a FEN that is typed is drawn, and the rest of the text is left alone', async () => {
+  await onPage({ server }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    const before = await page.inputValue('#editor-text');
+    const fen = await page.inputValue('#fen');
+    const other = 'rnbqkbnr/pp1ppppp/8/2p5/4P3/5N2/PPPP1PPP/RNBQKB1R b KQkq - 1 2';
+    await afterMoving(page, () => page.fill('#fen', other));
+    assert.equal(await page.inputValue('#editor-text'), before.replace(fen, other));
+    assert.equal(await page.textContent('#fen-error'), '');
+    assert.match(await page.textContent('#scene-title'), /edited/);
+  });
+});
+
+test('a FEN that is no position says so in its place, and the picture stays', async () => {
+  await onPage({ server, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    const before = await look(page);
+    await page.fill('#fen', 'rnbqkbnr/pppppppp/9/8/8/8/PPPPPPPP/RNBQKBNR w - - 0 1');
+    await page.waitForFunction(() => document.getElementById('fen-error').textContent !== '');
+    assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'true');
+    assert.equal(await look(page), before);
+    await shoot(page, 'desktop-fen-error');
+    await page.fill('#fen', '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1');
+    await page.waitForFunction(() => document.getElementById('fen-error').textContent === '');
+    assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
+  });
+});
+
+test('a mistake in the scene is marked on its line, explained, and a click leads to it', async () => {
+  await onPage({ server, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await caretAfter(page, '"type": "plane", ');
+    await page.keyboard.insertText('"colour": 3, ');
+    await page.waitForSelector('.error');
+    const text = await page.inputValue('#editor-text');
+    const line = text.slice(0, text.indexOf('"colour"')).split('\n').length;
+    assert.match(await page.textContent('.error-place'), new RegExp(`^Line ${line}\\b`));
+    assert.match(await page.textContent('.error-place'), /\/objects\/1\/colour/);
+    const marked = await page.evaluate(() => document.querySelector('.mark-line').style.getPropertyValue('--line'));
+    assert.equal(Number(marked) + 1, line);
+    assert.equal(await page.locator('.dot').count(), await page.locator('.error').count());
+    await page.click('.error');
+    const selected = await page.evaluate(() => {
+      const area = document.getElementById('editor-text');
+      return area.value.slice(area.selectionStart, area.selectionEnd);
+    });
+    assert.match(selected, /^("colour"|3)$/);
+    await shoot(page, 'desktop-editor-error');
+  });
+});
+
+test('a misspelt name comes with the right one', async () => {
+  await onPage({ server, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.fill('#editor-text', '{"tilelight": 1, "objects": [{"type": "sphere", "raduis": 2}]}');
+    await page.waitForSelector('.error');
+    assert.match(await page.textContent('.error'), /radius/);
+  });
+});
+
+test('text that is not JSON is marked where it breaks', async () => {
+  await onPage({ server, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.fill('#editor-text', '{\n  "tilelight": 1,\n  "objects": [,]\n}\n');
+    await page.waitForSelector('.error');
+    assert.match(await page.textContent('.error-place'), /^Line 3/);
+    assert.equal(await page.textContent('#editor-state'), '1 mistake');
+  });
+});
+
+test('an edit keeps the camera where the hand left it', async () => {
+  await onPage({ server }, async ({ page }) => {
+    const positions = [];
+    page.on('request', (request) => request.method() === 'PUT' && positions.push(request.postDataJSON().camera.position));
+    await page.focus('#picture');
+    await afterMoving(page, () => page.keyboard.press('Shift+ArrowLeft'));
+    const moved = positions.at(-1);
+    await openPanel(page, 'edit');
+    await caretAfter(page, '"ambient": 0.1');
+    await afterMoving(page, () => page.keyboard.insertText('9'));
+    assert.deepEqual(positions.at(-1), moved);
+  });
+});
+
+test('the plan says what is in use and what was left out and why', async () => {
+  await onPage({ server }, async ({ page }) => {
+    await openPanel(page, 'plan');
+    assert.ok(await page.locator('.chips li').count() > 0);
+    assert.ok(await page.locator('.left-out dt').count() > 0);
+    assert.equal(await page.locator('.left-out dt').count(), await page.locator('.left-out dd').count());
+    assert.match(await page.textContent('#plan-body'), /Triangles/);
+    await shoot(page, 'desktop-plan');
+  });
+});
+
+test('the download is the very picture on the screen', async () => {
+  await onPage({ server }, async ({ page }) => {
+    await page.focus('#picture');
+    await afterMoving(page, () => page.keyboard.press('Shift+ArrowRight'));
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download-button')]);
+    assert.equal(download.suggestedFilename(), 'tilelight-opening-1440x900.png');
+    const bytes = await readFile(await download.path());
+    assert.deepEqual(pngSize(bytes), { width: 1440, height: 900 });
+    assert.equal(await lookOfPng(page, bytes), await look(page));
+  });
+});
+
+test('the copied curl command runs and gives the picture on the screen', async () => {
+  const settings = { viewport: { width: 800, height: 500 }, permissions: ['clipboard-read', 'clipboard-write'] };
+  await onPage({ server, settings }, async ({ page }) => {
+    await page.click('#curl-button');
+    await page.waitForSelector('.toast.is-shown:has-text("copied")');
+    const command = await page.evaluate(() => navigator.clipboard.readText());
+    const folder = await mkdtemp(path.join(tmpdir(), 'tilelight-curl-'));
+    try {
+      await run('sh', ['-c', command], { cwd: folder });
+      const bytes = await readFile(path.join(folder, 'tilelight.png'));
+      assert.deepEqual(pngSize(bytes), { width: 800, height: 500 });
+      assert.equal(await lookOfPng(page, bytes), await look(page));
+    } finally {
+      await rm(folder, { recursive: true });
+    }
+  });
+});
+
+test('a link leads back to the same scene from the same place', async () => {
+  const settings = { viewport: { width: 800, height: 500 }, permissions: ['clipboard-read', 'clipboard-write'] };
+  await onPage({ server, settings, path: '/#scene=knight' }, async ({ page, context }) => {
+    assert.equal(await page.textContent('#scene-title'), 'Knight');
+    await page.focus('#picture');
+    await afterMoving(page, () => page.keyboard.press('Shift+ArrowRight'));
+    await page.click('#link-button');
+    await page.waitForSelector('.toast.is-shown:has-text("copied")');
+    const url = await page.evaluate(() => navigator.clipboard.readText());
+    const other = await context.newPage();
+    await other.goto(url);
+    await finished(other);
+    assert.equal(await other.textContent('#scene-title'), 'Knight');
+  });
+});
+
+for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { width: 768, height: 1024 } }],
+  ['desktop', kDesktop]]) {
+  test(`nothing sticks out of a ${name}, with any panel open`, async () => {
+    await onPage({ server, settings: { ...settings, colorScheme: 'dark' } }, async ({ page }) => {
+      const { width } = settings.viewport;
+      const check = async (what) => {
+        const out = await page.evaluate((limit) => [...document.querySelectorAll('body *')]
+          .filter((e) => e.checkVisibility({ visibilityProperty: true }) && !e.closest('.editor, .for-readers, .cover'))
+          .map((e) => [e.id || e.className || e.tagName, e.getBoundingClientRect()])
+          .filter(([, box]) => box.width > 0 && (box.left < -0.5 || box.right > limit + 0.5))
+          .map(([id]) => String(id)), width);
+        assert.deepEqual(out, [], what);
+        assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), what);
+        await shoot(page, `${name}-${what}`);
+      };
+      await check('closed');
+      for (const panel of ['scenes', 'edit', 'plan']) {
+        await openPanel(page, panel);
+        await check(panel);
+        await page.keyboard.press('Escape');
+      }
+    });
+  });
+}
+
+test('every control has a name and shows the focus', async () => {
+  await onPage({ server }, async ({ page }) => {
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas')]
+      .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
+      .map((e) => e.outerHTML));
+    assert.deepEqual(nameless, []);
+    const seen = [];
+    for (let i = 0; i < 8; ++i) {
+      await page.keyboard.press('Tab');
+      seen.push(await page.evaluate(() => [document.activeElement.id, getComputedStyle(document.activeElement).outlineStyle]));
+    }
+    assert.deepEqual(seen.map(([id]) => id), ['picture', 'scenes-button', 'edit-button', 'plan-button', 'reset-button',
+      'link-button', 'curl-button', 'download-button']);
+    assert.ok(seen.every(([, outline]) => outline === 'solid'));
+  });
+});
