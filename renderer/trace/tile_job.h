@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. One dispatched call a work
-// item: the kernel traces `sample_count` samples of every pixel of the tile and adds them to the film in index order.
+// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. The kernel traces `sample_count` samples of every pixel of the tile and adds them to the film in index order.
 #pragma once
 
 #include <atomic>

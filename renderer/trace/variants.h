@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel variants: one instantiation file each, each compiled for every instruction set and dispatched at run time.
+// The kernel variants, one instantiation file each, so that they compile side by side.
 #pragma once
 
 #include "renderer/trace/tile_job.h"

@@ -2,12 +2,11 @@
 // Traversal of the 8-wide trees by single rays: boxes and triangles pass a float filter eight at a time, and what is left
 // is decided in double (intersect.h). The filter errs on the side of passing, so the image does not depend on it, nor on
 // the order of traversal, nor on the instruction set.
-#if defined(TILELIGHT_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TILELIGHT_TRACE_TRAVERSE_INL_H_
-#undef TILELIGHT_TRACE_TRAVERSE_INL_H_
-#else
-#define TILELIGHT_TRACE_TRAVERSE_INL_H_
-#endif
+#include "renderer/trace/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/trace/trace_rays_simd.cpp"
+#include <hwy/foreach_target.h>
 
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
@@ -15,6 +14,7 @@
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 #include "renderer/trace/intersect.h"
+#include "renderer/trace/trace_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
@@ -158,11 +158,12 @@ HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay
 template <bool kAnyHit>
 class Walk {
  public:
-  Walk(const CompiledScene& scene, const Ray& ray, double t_max) : scene_(scene), ray_(ray), t_min_(t_min_of(ray)) {
-    best_.t = t_max;
+  Walk(const CompiledScene& scene, const BoundedRay& bounded)
+      : scene_(scene), ray_(bounded.ray), t_min_(t_min_of(bounded.ray)) {
+    best_.t = bounded.t_max;
   }
 
-  HWY_INLINE Hit run() {
+  Hit run() {
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) {
       if (visit_body(static_cast<uint32_t>(i)) && kAnyHit) return best_;
     }
@@ -190,7 +191,7 @@ class Walk {
 
  private:
   // True if the body gave a nearer hit.
-  HWY_INLINE bool visit_body(uint32_t index) {
+  bool visit_body(uint32_t index) {
     const CompiledBody& body = scene_.bodies[index];
     const LocalRay local = to_local(body, ray_);
     const bool has_left = ray_.left.body == index;
@@ -211,7 +212,7 @@ class Walk {
     return offer(index, prim, t, 0.0, 0.0);
   }
 
-  HWY_INLINE bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {
+  bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {
     if (best_.is_hit()) {
       if (!is_nearer(t, scene_.bodies[index].body, prim, best_, scene_.bodies[best_.body].body)) return false;
     } else if (!(t < best_.t)) {
@@ -221,7 +222,7 @@ class Walk {
     return true;
   }
 
-  HWY_INLINE bool visit_mesh(uint32_t index, const CompiledBody& body, const LocalRay& local) {
+  bool visit_mesh(uint32_t index, const CompiledBody& body, const LocalRay& local) {
     const CompiledMesh& mesh = *body.mesh;
     if (mesh.bvh.nodes.empty()) return false;
     const FilterRay filter = make_filter_ray(local, t_min_, best_.t);
@@ -254,7 +255,7 @@ class Walk {
     return found;
   }
 
-  HWY_INLINE bool offer_triangle(uint32_t index, const CompiledMesh& mesh, uint32_t id, const FilterRay& filter,
+  bool offer_triangle(uint32_t index, const CompiledMesh& mesh, uint32_t id, const FilterRay& filter,
                                  const Shear& shear) {
     if (ray_.left.body == index && ray_.left.prim == id) return false;
     const auto& tri = mesh.triangles[id];
@@ -272,15 +273,31 @@ class Walk {
   Hit best_;
 };
 
-HWY_INLINE Hit trace_closest(const CompiledScene& scene, const Ray& ray, double t_max) {
-  return Walk<false>(scene, ray, t_max).run();
+void trace_closest_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
+  for (size_t i = 0; i < rays.size(); ++i) hits[i] = Walk<false>(scene, rays[i]).run();
 }
-HWY_INLINE bool trace_any(const CompiledScene& scene, const Ray& ray, double t_max) {
-  return Walk<true>(scene, ray, t_max).run().is_hit();
+
+void trace_any_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked) {
+  for (size_t i = 0; i < rays.size(); ++i) is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit();
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tilelight
 HWY_AFTER_NAMESPACE();
 
+#if HWY_ONCE
+namespace tilelight {
+
+HWY_EXPORT(trace_closest_rays);
+HWY_EXPORT(trace_any_rays);
+
+void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
+  HWY_DYNAMIC_DISPATCH(trace_closest_rays)(scene, rays, hits);
+}
+
+void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked) {
+  HWY_DYNAMIC_DISPATCH(trace_any_rays)(scene, rays, is_blocked);
+}
+
+}  // namespace tilelight
 #endif

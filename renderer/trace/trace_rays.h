@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays against the compiled scene, a batch at a time: the only code that is compiled for several instruction sets. One
+// dispatched call a batch, never a ray. Every ray's answer depends on that ray alone. Any thread.
+#pragma once
+
+#include <span>
+
+#include "renderer/compile/compiled_scene.h"
+#include "renderer/shade/ray.h"
+
+namespace tilelight {
+
+struct BoundedRay {
+  Ray ray;
+  double t_max = std::numeric_limits<double>::infinity();  // hits at or beyond it do not count
+};
+
+// hits[i] = the nearest hit of rays[i], ties to the lowest (body, primitive). REQUIRES: equal sizes.
+void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits);
+
+// is_blocked[i] = whether anything lies before rays[i].t_max. REQUIRES: equal sizes.
+void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked);
+
+}  // namespace tilelight
