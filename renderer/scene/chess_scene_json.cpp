@@ -12,7 +12,7 @@ std::string chess_scene_json(std::string_view fen, int detail) {
   const std::string fen_json = json(fen).dump(-1, ' ', false, json::error_handler_t::replace);
   return R"({
   "tilelight": 1,
-  "camera": {"type": "perspective", "position": [3.6, 7.6, 11.4], "target": [0, 0.1, 0.4], "fov_y_deg": 36},
+  "camera": {"type": "perspective", "position": [3.2, 7.6, 11.6], "target": [-0.35, -0.1, 1.2], "fov_y_deg": 38},
   "background": {"bottom": [0.3, 0.29, 0.28], "top": [0.62, 0.68, 0.76]},
   "ambient": 0.16,
   "lights": [

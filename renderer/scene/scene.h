@@ -20,6 +20,7 @@ using MaterialId = uint32_t;  // index into Scene::materials
 struct Checker {
   Color a{1.0}, b{0.0};
   double size = 1.0;
+  bool operator==(const Checker&) const = default;
 };
 using Paint = std::variant<Color, Checker>;
 
@@ -34,6 +35,7 @@ struct Material {
   double ior = 1.5;         // index of refraction, > 0
   int priority = 0;         // of overlapping media the higher one wins
   bool fresnel = false;     // weigh kr and kt by the dielectric Fresnel term
+  bool operator==(const Material&) const = default;
 };
 
 enum class LightKind { point, directional };
@@ -45,12 +47,14 @@ struct Light {
   Color color{1.0};
   double intensity = 1.0;
   bool shadow = true;
+  bool operator==(const Light&) const = default;
 };
 
 enum class AttenuationMode { linear, inverse_square, none };
 struct Attenuation {
   AttenuationMode mode = AttenuationMode::linear;
   double k = 1.0;  // scene units; squared units for inverse_square
+  bool operator==(const Attenuation&) const = default;
 };
 
 enum class Piece : uint8_t { pawn, rook, knight, bishop, queen, king };
@@ -60,21 +64,26 @@ inline constexpr int kPieceKinds = 6;
 struct SphereShape {
   Vec3 center{0.0};
   double radius = 1.0;
+  bool operator==(const SphereShape&) const = default;
 };
 struct BoxShape {  // also a cube
   Vec3 min{-0.5}, max{0.5};
+  bool operator==(const BoxShape&) const = default;
 };
 struct PlaneShape {  // infinite
   Vec3 point{0.0}, normal{0.0, 1.0, 0.0};
+  bool operator==(const PlaneShape&) const = default;
 };
 struct MeshShape {
   uint32_t mesh = 0;  // index into Scene::meshes
+  bool operator==(const MeshShape&) const = default;
 };
 struct ChessPieceShape {
   Piece piece = Piece::pawn;
   Side side = Side::white;
   Vec3 position{0.0};  // middle of the foot
   int detail = 48;     // segments around the axis
+  bool operator==(const ChessPieceShape&) const = default;
 };
 // Roles of a chess position's materials, in the order of ChessPositionShape::materials.
 enum class ChessRole : uint8_t { white, black, light, dark, frame };
@@ -82,12 +91,14 @@ inline constexpr int kChessRoles = 5;
 struct ChessMan {
   Piece piece;
   Side side;
+  bool operator==(const ChessMan&) const = default;
 };
 struct ChessPositionShape {
   // squares[rank][file], rank 0 = first rank, file 0 = a. A square is 1 unit; a1 is centred at (-3.5, 0, 3.5).
   std::array<std::array<std::optional<ChessMan>, 8>, 8> squares{};
   int detail = 48;
   std::array<MaterialId, kChessRoles> materials{};
+  bool operator==(const ChessPositionShape&) const = default;
 };
 using Shape = std::variant<SphereShape, BoxShape, PlaneShape, MeshShape, ChessPieceShape, ChessPositionShape>;
 
@@ -96,6 +107,7 @@ struct Object {
   Shape shape;
   MaterialId material = 0;    // unused by ChessPositionShape
   Mat4 world_from_shape{1.0};  // the user's transform, after the shape's own placement; never singular
+  bool operator==(const Object&) const = default;
 };
 
 struct MeshData {
@@ -104,10 +116,12 @@ struct MeshData {
   std::vector<uint32_t> indices;  // 3 a triangle, counter-clockwise from outside
   std::vector<Vec3> normals;      // none, or one a position
   double crease_deg = 30.0;       // edges sharper than this stay sharp; only where normals are absent
+  bool operator==(const MeshData&) const = default;
 };
 
 struct Background {
   Color bottom{0.9, 0.9, 0.95}, top{0.35, 0.5, 0.8};
+  bool operator==(const Background&) const = default;
 };
 
 struct Scene {
@@ -118,6 +132,7 @@ struct Scene {
   Background background;
   Color ambient{0.12};
   Attenuation attenuation;
+  bool operator==(const Scene&) const = default;
 };
 
 enum class Projection { perspective, orthographic };
@@ -126,11 +141,13 @@ struct Camera {
   Vec3 position{0.0}, target{0.0}, up{0.0, 1.0, 0.0};
   double fov_y_deg = 40.0;  // perspective
   double height = 1.0;      // orthographic: scene units from the bottom to the top edge
+  bool operator==(const Camera&) const = default;
 };
 
 struct ImageSpec {
   int width = 1280, height = 720;  // pixels
   double exposure = 0.0;           // stops
+  bool operator==(const ImageSpec&) const = default;
 };
 
 // Only what this release can render; other names of the language are refused by the parser.
@@ -150,12 +167,14 @@ struct RenderSpec {
   bool samples_implied = false;   // nobody asked for `samples`: it follows from the other rules or is the default
   std::optional<double> time_ms;
   std::vector<int> passes;        // an exact replay; empty = not asked for
+  bool operator==(const RenderSpec&) const = default;
 };
 
 struct View {
   std::optional<Camera> camera;  // absent: framed from the scene
   ImageSpec image;
   RenderSpec render;
+  bool operator==(const View&) const = default;
 };
 
 }  // namespace tilelight
