@@ -9,6 +9,8 @@
 //   auto png    = encode_image(*render->image(), parsed->view.image.exposure, ImageFormat::png);
 #pragma once
 
+#include "renderer/base/hash.h"              // IWYU pragma: export
+#include "renderer/base/result.h"            // IWYU pragma: export
 #include "renderer/compile/compile.h"        // IWYU pragma: export
 #include "renderer/film/film.h"              // IWYU pragma: export
 #include "renderer/film/image_io.h"          // IWYU pragma: export
