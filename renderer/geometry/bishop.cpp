@@ -30,7 +30,7 @@ Profile stem_profile(int detail) {
 
 Profile finial_profile(int detail) {
   Profile profile({0.034, kMitreTop}, detail);
-  profile.arc_to({0.0, 1.402}, 2.0 * 68.0);
+  profile.ball_to({0.0, 1.402}, 2.0 * 68.0);
   return profile;
 }
 

@@ -12,7 +12,7 @@ Profile pawn_profile(int detail) {
   profile.line_to({0.094, 0.558});
   add_bead(profile, 0.094, 0.582);
   add_collar(profile, 0.176, 0.606, 0.060, 0.090);
-  profile.arc_to({0.0, 0.95}, 2.0 * 74.0);  // the ball
+  profile.ball_to({0.0, 0.95}, 2.0 * 74.0);  // the ball
   return profile;
 }
 

@@ -35,7 +35,7 @@ int Profile::segments() const {
 
 // The sagitta of n chords of an arc is about length * turn / (8 n^2): equal errors ask for n ~ sqrt(length * turn).
 int Profile::segments_of(double length, double turn_rad) const {
-  constexpr double kDensity = 1.7;
+  constexpr double kDensity = 1.5;
   const double n = kDensity * std::sqrt(length * turn_rad * detail_);
   return std::max(2, static_cast<int>(n + 0.5));
 }
@@ -63,7 +63,17 @@ Profile& Profile::line_to(Vec2 to) {
 }
 
 Profile& Profile::arc_to(Vec2 to, double turn_deg) {
-  const double turn = elementary::rad_from_deg(turn_deg), half = 0.5 * turn;
+  add_arc(to, elementary::rad_from_deg(turn_deg), 1.0);
+  return *this;
+}
+
+Profile& Profile::ball_to(Vec2 to, double turn_deg) {
+  add_arc(to, elementary::rad_from_deg(turn_deg), 1.7);
+  return *this;
+}
+
+void Profile::add_arc(Vec2 to, double turn, double fineness) {
+  const double half = 0.5 * turn;
   const Vec2 from = end(), chord = to - from;
   const double c = elementary::cos(half), s = elementary::sin(half);
   const Vec2 center = 0.5 * (from + to) + 0.5 * (c / s) * Vec2(-chord.y, chord.x);
@@ -71,13 +81,12 @@ Profile& Profile::arc_to(Vec2 to, double turn_deg) {
   const double side = turn > 0.0 ? 1.0 : -1.0;
   start_element(side * Vec2(-spoke.y, spoke.x));
   const double radius = glm::length(spoke);
-  const int n = segments_of(radius * std::fabs(turn), std::fabs(turn));
+  const int n = static_cast<int>(fineness * segments_of(radius * std::fabs(turn), std::fabs(turn)) + 0.5);
   for (int i = 1; i <= n; ++i) {
     const double ci = elementary::cos(turn * i / n), si = elementary::sin(turn * i / n);
     const Vec2 p(ci * spoke.x - si * spoke.y, si * spoke.x + ci * spoke.y);
     add(i == n ? to : center + p, side * Vec2(-p.y, p.x));
   }
-  return *this;
 }
 
 Profile& Profile::curve_to(Vec2 control0, Vec2 control1, Vec2 to) {

@@ -31,6 +31,7 @@ class Profile {
   Profile& line_to(Vec2 end);
   // A circular arc that turns by turn_deg in all, counter-clockwise if positive: it bulges outwards on the way up.
   Profile& arc_to(Vec2 end, double turn_deg);
+  Profile& ball_to(Vec2 end, double turn_deg);  // the same, cut finer: the eye knows a ball's outline
   Profile& curve_to(Vec2 control0, Vec2 control1, Vec2 end);
 
   Vec2 end() const { return runs_.back().back().position; }
@@ -39,6 +40,7 @@ class Profile {
 
  private:
   int segments_of(double length, double turn_rad) const;
+  void add_arc(Vec2 end, double turn_rad, double fineness);
   void start_element(Vec2 tangent);
   void add(Vec2 position, Vec2 tangent);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queen: a flared bell with a scalloped coronet, and a ball that rises from it.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "renderer/base/elementary.h"
 #include "renderer/geometry/lathe.h"
 #include "renderer/geometry/staunton.h"
 
@@ -11,11 +11,12 @@ namespace tilelight {
 namespace {
 
 constexpr int kScallops = 8;
-// The scallops take the rim down by kScallopDepth between its points and fade out towards kCoronetFoot.
-constexpr double kCoronetFoot = 1.380, kRimY = 1.506, kScallopDepth = 0.050;
+// The wall of the coronet, and the share of its height that is filed away between two points.
+constexpr double kCoronetFoot = 1.380, kCoronetRadius = 0.163, kBowlRadius = 0.150, kRimY = 1.508, kFiledShare = 0.42;
 
-// An even number of columns for each scallop, so that one runs through the lowest place.
-int queen_columns(int detail) { return round_up(detail, 2 * kScallops); }
+// An even number of columns for each scallop, so that one runs through its lowest place; at most a third
+// more than asked for, because the scallops turn more sharply than the body.
+int queen_columns(int detail) { return round_up(detail + std::min(detail / 3, 16), 2 * kScallops); }
 
 Profile body_profile(int detail) {
   Profile profile = turned_foot({.radius = 0.360, .height = 0.35, .stem_radius = 0.184}, detail);
@@ -26,60 +27,72 @@ Profile body_profile(int detail) {
   profile.line_to({0.118, 1.098});
   add_bead(profile, 0.110, 1.132);
   profile.line_to({0.098, 1.134}).line_to({0.098, 1.150});
-  profile.curve_to({0.106, 1.250}, {0.140, 1.310}, {0.163, kCoronetFoot});
-  return profile;
-}
-
-// From kCoronetFoot over the rim and down into the bowl, to the same height.
-Profile coronet_profile(int detail) {
-  Profile profile({0.163, kCoronetFoot}, detail);
-  profile.curve_to({0.178, 1.424}, {0.194, 1.466}, {0.200, 1.500});
-  profile.arc_to({0.192, kRimY}, 100.0);
-  profile.line_to({0.180, kRimY});
-  profile.curve_to({0.170, 1.460}, {0.162, 1.420}, {0.156, kCoronetFoot});
+  profile.curve_to({0.106, 1.250}, {0.140, 1.310}, {kCoronetRadius, kCoronetFoot});
   return profile;
 }
 
 Profile crown_profile(int detail) {
-  Profile profile({0.156, kCoronetFoot}, detail);
-  profile.line_to({0.146, 1.392});
+  Profile profile({kBowlRadius, kCoronetFoot}, detail);
+  profile.line_to({0.146, kCoronetFoot});
   profile.curve_to({0.138, 1.470}, {0.090, 1.515}, {0.036, 1.540});
   profile.line_to({0.034, 1.548});
-  profile.arc_to({0.0, 1.650}, 2.0 * 71.0);
+  profile.ball_to({0.0, 1.650}, 2.0 * 71.0);
   return profile;
 }
 
-// The sunken coronet: y' = y - depth * valley(s) * fade(y), with s running from one point of the rim to the next.
-SurfacePoint scalloped_point(const ProfilePoint& p, Vec2 direction, double s) {
-  const double r = p.position.x, u = (p.position.y - kCoronetFoot) / (kRimY - kCoronetFoot);
-  const double fade = u * u * (3.0 - 2.0 * u), fade_slope = 6.0 * u * (1.0 - u) / (kRimY - kCoronetFoot);
-  // Wide round valleys between narrow rounded points: (1 - w^3)^1.5, w = 0 in the valley and 1 at the points.
-  const double w = std::fabs(2.0 * s - 1.0), cube = 1.0 - w * w * w, root = std::sqrt(cube);
-  const double valley = cube * root;
-  const double slope_by_s = (s < 0.5 ? 9.0 : -9.0) * root * w * w;
-  const double valley_slope = slope_by_s * kScallops / (2.0 * elementary::kPi);  // by the angle
-  SurfacePoint point = turned_point(p, direction);
-  point.position.y -= kScallopDepth * valley * fade;
-  // The normal is the gradient's image under the inverse transpose of the displacement.
-  const double along_y = 1.0 - kScallopDepth * valley * fade_slope;
-  const double along_angle = -kScallopDepth * valley_slope * fade;
-  const Vec3 around(direction.y, 0.0, -direction.x);  // the way the angle grows
-  const double lift = point.normal.y / along_y;
-  point.normal = glm::normalize(Vec3(point.normal.x, lift, point.normal.z) - around * (lift * along_angle / r));
-  return point;
-}
+// The coronet's wall is turned and then filed down between its points: its faces stay surfaces of revolution, and the
+// filed rim runs straight through from the outer to the inner face.
+class Coronet {
+ public:
+  Coronet(const Columns& columns, int detail)
+      : columns_(columns), wall_rows_(std::max(3, static_cast<int>(0.9 * std::sqrt(double(detail)) + 0.5))) {}
 
-void turn_coronet(MeshBuilder& mesh, const Profile& coronet, const Columns& columns) {
-  const int steps = columns.count() / kScallops;
-  std::vector<SurfacePoint> points;
-  for (const ProfileRun& run : coronet.runs()) {
-    points.clear();
-    for (const ProfilePoint& p : run)
-      for (int j = 0; j <= columns.count(); ++j)
-        points.push_back(scalloped_point(p, columns.direction(j), double(j % steps) / steps));
-    mesh.add_grid(points, columns.count() + 1);
+  void add_to(MeshBuilder& mesh) const {
+    const int n = columns_.count();
+    std::vector<SurfacePoint> outer, inner, rim;
+    for (int i = 0; i <= wall_rows_; ++i) {
+      for (int j = 0; j <= n; ++j) outer.push_back(outer_point(j, double(i) / wall_rows_));
+      for (int j = 0; j <= n; ++j) inner.push_back(inner_point(j, double(wall_rows_ - i) / wall_rows_));
+    }
+    for (int j = 0; j <= n; ++j) rim.push_back({outer_point(j, 1.0).position, rim_normal(j)});
+    for (int j = 0; j <= n; ++j) rim.push_back({inner_point(j, 1.0).position, rim_normal(j)});
+    for (const auto* patch : {&outer, &rim, &inner}) mesh.add_grid(*patch, n + 1);
   }
-}
+
+  int64_t triangles() const { return 2 * int64_t(columns_.count()) * (2 * wall_rows_ + 1); }
+
+ private:
+  // How far column j is filed down, 1 at the deepest: wide round valleys between narrow rounded points.
+  double valley(int j) const {
+    const int steps = columns_.count() / kScallops;
+    const double w = std::fabs(2.0 * (j % steps) / steps - 1.0), rise = 1.0 - w * w * w;
+    return rise * std::sqrt(rise);
+  }
+
+  SurfacePoint wall_point(const Cubic& face, double side, int j, double u) const {
+    const double t = u * (1.0 - kFiledShare * valley(j));
+    const Vec2 tangent = face.tangent(t);
+    return turned_point({face.position(t), side * glm::normalize(Vec2(tangent.y, -tangent.x))}, columns_.direction(j));
+  }
+  SurfacePoint outer_point(int j, double u) const {
+    static const Cubic kFace{{kCoronetRadius, kCoronetFoot}, {0.178, 1.424}, {0.196, 1.466}, {0.204, kRimY}};
+    return wall_point(kFace, 1.0, j, u);
+  }
+  SurfacePoint inner_point(int j, double u) const {
+    static const Cubic kFace{{kBowlRadius, kCoronetFoot}, {0.158, 1.424}, {0.174, 1.466}, {0.183, kRimY}};
+    return wall_point(kFace, -1.0, j, u);
+  }
+
+  Vec3 rim_normal(int j) const {
+    const int n = columns_.count();
+    const Vec3 along = outer_point((j + 1) % n, 1.0).position - outer_point((j + n - 1) % n, 1.0).position;
+    const Vec3 inwards = inner_point(j % n, 1.0).position - outer_point(j % n, 1.0).position;
+    return glm::normalize(glm::cross(along, inwards));
+  }
+
+  const Columns& columns_;
+  int wall_rows_;
+};
 
 }  // namespace
 
@@ -87,15 +100,15 @@ TriMesh make_queen(int detail) {
   const Columns columns(queen_columns(detail));
   MeshBuilder mesh;
   turn(mesh, body_profile(detail), columns);
-  turn_coronet(mesh, coronet_profile(detail), columns);
+  Coronet(columns, detail).add_to(mesh);
   turn(mesh, crown_profile(detail), columns);
   return mesh.finish();
 }
 
 int64_t queen_triangles(int detail) {
-  const int columns = queen_columns(detail);
-  return turned_triangles(body_profile(detail), columns) + turned_triangles(coronet_profile(detail), columns) +
-         turned_triangles(crown_profile(detail), columns);
+  const Columns columns(queen_columns(detail));
+  return turned_triangles(body_profile(detail), columns.count()) + Coronet(columns, detail).triangles() +
+         turned_triangles(crown_profile(detail), columns.count());
 }
 
 }  // namespace tilelight
