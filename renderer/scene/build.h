@@ -52,8 +52,8 @@ struct MeshTable {
 };
 MeshTable build_meshes(Value meshes, const Limits& limits, Problems& problems);
 
-std::vector<Object> build_objects(Value objects, const MeshTable& meshes, MaterialTable& materials, const Limits& limits,
-                                  Problems& problems);
+std::vector<Object> build_objects(Value objects, const MeshTable& meshes, MaterialTable& materials,
+                                  const Limits& limits, Problems& problems);
 
 // `lights` may be absent, which means the two default lights.
 std::vector<Light> build_lights(Value lights);

@@ -57,8 +57,9 @@ MaterialId MaterialTable::find(Value object, std::string_view key, MaterialId fa
   std::string hint = is_free_key(value.text()) ? "names under \"extras\" or \"x-\" are free keys and no materials"
                      : names_.empty()          ? "the scene has no materials"
                                                : did_you_mean(value.text(), names_);
-  problems_.add(value, {"unknown_name", "found no material " + in_quotes(value.text()) + " under \"materials\"",
-                        {}, std::move(hint)});
+  problems_.add(
+      value,
+      {"unknown_name", "found no material " + in_quotes(value.text()) + " under \"materials\"", {}, std::move(hint)});
   return fallback;
 }
 
@@ -76,9 +77,12 @@ MaterialId MaterialTable::add(Material material, Value from) {
   const auto id = static_cast<MaterialId>(materials_.size());
   if (user_materials_ == limits_.materials) {
     if (!over_limit_) {
-      problems_.add(from, {"limit", "found more than " + std::to_string(limits_.materials) +
-                           " materials with those inside objects; allowed: " + std::to_string(limits_.materials) +
-                           " (limit materials)", {}, "give the material a name under \"materials\" and use that"});
+      problems_.add(from, {"limit",
+                           "found more than " + std::to_string(limits_.materials) +
+                               " materials with those inside objects; allowed: " + std::to_string(limits_.materials) +
+                               " (limit materials)",
+                           {},
+                           "give the material a name under \"materials\" and use that"});
     }
     over_limit_ = true;
     return kDefault;
@@ -101,11 +105,16 @@ Material make_chess_material(ChessRole role) {
     return material;
   };
   switch (role) {
-    case ChessRole::white: return make({0.83, 0.73, 0.54}, 0.35, 60.0, 0.05);
-    case ChessRole::black: return make({0.040, 0.027, 0.021}, 0.45, 80.0, 0.07);
-    case ChessRole::light: return make({0.68, 0.48, 0.27}, 0.15, 40.0, 0.08);
-    case ChessRole::dark: return make({0.20, 0.090, 0.042}, 0.15, 40.0, 0.08);
-    case ChessRole::frame: return make({0.095, 0.040, 0.020}, 0.25, 50.0, 0.06);
+    case ChessRole::white:
+      return make({0.83, 0.73, 0.54}, 0.35, 60.0, 0.05);
+    case ChessRole::black:
+      return make({0.040, 0.027, 0.021}, 0.45, 80.0, 0.07);
+    case ChessRole::light:
+      return make({0.68, 0.48, 0.27}, 0.15, 40.0, 0.08);
+    case ChessRole::dark:
+      return make({0.20, 0.090, 0.042}, 0.15, 40.0, 0.08);
+    case ChessRole::frame:
+      return make({0.095, 0.040, 0.020}, 0.25, 50.0, 0.06);
   }
   return {};
 }

@@ -27,10 +27,13 @@ bool check_indices(Value indices, size_t position_count, Problems& problems) {
   for (size_t i = 0; i < numbers.size() && errors < kMaxErrorsInList; ++i) {
     if (numbers[i] < static_cast<double>(position_count)) continue;
     ++errors;
-    problems.add_element(indices, i,
-                         {"out_of_range", "found index " + number_text(numbers[i]) + "; allowed: 0 to " +
-                              std::to_string(position_count - 1) + ", for there are " + std::to_string(position_count) +
-                              " positions (of 3 numbers each)", {}, ""});
+    problems.add_element(
+        indices, i,
+        {"out_of_range",
+         "found index " + number_text(numbers[i]) + "; allowed: 0 to " + std::to_string(position_count - 1) +
+             ", for there are " + std::to_string(position_count) + " positions (of 3 numbers each)",
+         {},
+         ""});
   }
   return errors == 0;
 }
@@ -51,8 +54,9 @@ int64_t warn_of_oddities(Value entry, const MeshData& mesh, Problems& problems) 
   int64_t flat = 0;
   for (size_t corner = 0; corner < mesh.indices.size(); corner += 3) flat += has_area(mesh, corner) ? 0 : 1;
   if (flat > 0) {
-    problems.warn(entry, "degenerate_triangles",
-                  std::to_string(flat) + " of " + std::to_string(triangles) + " triangles have no area and are left out");
+    problems.warn(
+        entry, "degenerate_triangles",
+        std::to_string(flat) + " of " + std::to_string(triangles) + " triangles have no area and are left out");
   }
   const auto zero_normals = std::count(mesh.normals.begin(), mesh.normals.end(), Vec3(0.0));
   if (zero_normals > 0) {
@@ -69,14 +73,18 @@ void build_mesh(Value entry, bool usable, MeshTable& table, Problems& problems) 
   const Value positions = find_accepted(entry, "positions"), indices = find_accepted(entry, "indices");
   const Value normals = find_accepted(entry, "normals");
   bool visible = true;
-  if (usable && !entry.is_rejected() && positions && indices && check_indices(indices, positions.size() / 3, problems)) {
+  if (usable && !entry.is_rejected() && positions && indices &&
+      check_indices(indices, positions.size() / 3, problems)) {
     mesh.positions = read_vectors(positions);
     mesh.indices.assign(indices.numbers().begin(), indices.numbers().end());
     mesh.normals = read_vectors(normals);
     mesh.crease_deg = read_number(entry, "crease_deg", mesh.crease_deg);
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
-      problems.add(normals, {"wrong_length", "found " + std::to_string(normals.size()) + " numbers; allowed: " +
-                             std::to_string(positions.size()) + ", as many as positions, or none", {}, ""});
+      problems.add(normals, {"wrong_length",
+                             "found " + std::to_string(normals.size()) + " numbers; allowed: " +
+                                 std::to_string(positions.size()) + ", as many as positions, or none",
+                             {},
+                             ""});
     }
     visible = warn_of_oddities(entry, mesh, problems) > 0;
   }
@@ -99,9 +107,12 @@ MeshTable build_meshes(Value meshes, const Limits& limits, Problems& problems) {
     triangles += indices ? static_cast<int64_t>(indices.size() / 3) : 0;
     const bool fits = triangles <= limits.mesh_triangles;
     if (!fits && !reported) {
-      problems.add(entry, {"limit", "found " + std::to_string(triangles) + " triangles up to this mesh; allowed: " +
-                           std::to_string(limits.mesh_triangles) + " in the meshes of one scene (limit mesh_triangles)",
-                           {}, ""});
+      problems.add(entry, {"limit",
+                           "found " + std::to_string(triangles) +
+                               " triangles up to this mesh; allowed: " + std::to_string(limits.mesh_triangles) +
+                               " in the meshes of one scene (limit mesh_triangles)",
+                           {},
+                           ""});
       reported = true;
     }
     build_mesh(entry, fits, table, problems);

@@ -72,7 +72,8 @@ class ObjectBuilder {
       if (box.min[axis] > box.max[axis]) report_inverted_box(value, axis, box);
       if (box.min[axis] == box.max[axis]) ++flat_axes;
     }
-    if (flat_axes > 1) problems_.warn(value, "empty_box", "the box is flat along more than one axis and has no surface");
+    if (flat_axes > 1)
+      problems_.warn(value, "empty_box", "the box is flat along more than one axis and has no surface");
     object.shape = box;
     object.material = plain_material(value, flat_axes <= 1);
     return 0.5 * box.min + 0.5 * box.max;
@@ -94,8 +95,9 @@ class ObjectBuilder {
       const auto mesh = meshes_.by_name.find(name.text());
       if (mesh == meshes_.by_name.end()) {
         std::string hint = meshes_.names.empty() ? "the scene has no meshes" : did_you_mean(name.text(), meshes_.names);
-        problems_.add(name, {"unknown_name", "found no mesh " + in_quotes(name.text()) + " under \"meshes\"", {},
-                             std::move(hint)});
+        problems_.add(
+            name,
+            {"unknown_name", "found no mesh " + in_quotes(name.text()) + " under \"meshes\"", {}, std::move(hint)});
       } else {
         shape.mesh = mesh->second;
         visible = meshes_.is_visible[mesh->second];
@@ -113,8 +115,8 @@ class ObjectBuilder {
     shape.position = read_vector(value, "position", shape.position);
     shape.detail = read_int(value, "detail", shape.detail);
     spend(value, chess_piece_triangle_bound(shape.detail));
-    object.material = materials_.find_chess(value, "material",
-                                            shape.side == Side::white ? ChessRole::white : ChessRole::black);
+    object.material =
+        materials_.find_chess(value, "material", shape.side == Side::white ? ChessRole::white : ChessRole::black);
     object.shape = shape;
     any_visible_ = true;
     return shape.position;
@@ -153,7 +155,8 @@ class ObjectBuilder {
     problems_.add(culprit, {"out_of_range",
                             "found min " + number_text(box.min[axis]) + " above max " + number_text(box.max[axis]) +
                                 " along " + std::string(1, static_cast<char>('x' + axis)) + "; allowed: min <= max",
-                            {}, "swap the two"});
+                            {},
+                            "swap the two"});
   }
 
   // Counts triangles as they will be after instancing; the object that crosses the limit is reported, once.
@@ -161,10 +164,12 @@ class ObjectBuilder {
     const bool was_over = spent_ > limits_.instanced_triangles;
     spent_ += triangles;
     if (was_over || spent_ <= limits_.instanced_triangles) return;
-    problems_.add(value, {"limit",
-                          "found up to " + std::to_string(spent_) + " triangles in the objects up to this one; allowed: " +
-                              std::to_string(limits_.instanced_triangles) + " (limit instanced_triangles)",
-                          {}, "use less `detail` or fewer copies"});
+    problems_.add(value,
+                  {"limit",
+                   "found up to " + std::to_string(spent_) + " triangles in the objects up to this one; allowed: " +
+                       std::to_string(limits_.instanced_triangles) + " (limit instanced_triangles)",
+                   {},
+                   "use less `detail` or fewer copies"});
   }
 
   const MeshTable& meshes_;
@@ -177,8 +182,8 @@ class ObjectBuilder {
 
 }  // namespace
 
-std::vector<Object> build_objects(Value objects, const MeshTable& meshes, MaterialTable& materials, const Limits& limits,
-                                  Problems& problems) {
+std::vector<Object> build_objects(Value objects, const MeshTable& meshes, MaterialTable& materials,
+                                  const Limits& limits, Problems& problems) {
   std::vector<Object> built;
   if (!objects || objects.is_rejected()) return built;
   ObjectBuilder builder(meshes, materials, limits, problems);

@@ -26,9 +26,10 @@ Camera build_camera(Value value, Problems& problems) {
   const auto is_sound = [value](const char* key) { return !value.find(key) || !value.find(key).is_rejected(); };
   if (!value.find("position") || !is_sound("position") || !is_sound("target")) return camera;
   if (camera.position == camera.target) {
-    problems.add(value.find("position"),
-                 {"out_of_range", "found position equal to target; allowed: two different points",
-                  {}, value.find("target") ? "" : "target is the origin unless it is given"});
+    problems.add(value.find("position"), {"out_of_range",
+                                          "found position equal to target; allowed: two different points",
+                                          {},
+                                          value.find("target") ? "" : "target is the origin unless it is given"});
   } else if (is_sound("up")) {
     const Vec3 view = moderate(camera.target - camera.position);
     if (glm::cross(view, moderate(camera.up)) == Vec3(0.0)) {
@@ -45,10 +46,12 @@ ImageSpec build_image(Value value, const Limits& limits, Problems& problems) {
   image.exposure = read_number(value, "exposure", image.exposure);
   const int64_t pixels = int64_t{image.width} * image.height;
   if (pixels > limits.pixels) {
-    problems.add(value, {"limit",
-                         "found " + std::to_string(image.width) + " x " + std::to_string(image.height) + " = " +
-                             std::to_string(pixels) + " pixels; allowed: " + std::to_string(limits.pixels) +
-                             " (limit pixels)", {}, ""});
+    problems.add(value,
+                 {"limit",
+                  "found " + std::to_string(image.width) + " x " + std::to_string(image.height) + " = " +
+                      std::to_string(pixels) + " pixels; allowed: " + std::to_string(limits.pixels) + " (limit pixels)",
+                  {},
+                  ""});
   }
   return image;
 }
@@ -59,8 +62,11 @@ void build_stop_rules(Value value, RenderSpec& render, const Limits& limits, Pro
     render.passes.assign(passes.numbers().begin(), passes.numbers().end());
     const auto sum = std::accumulate(render.passes.begin(), render.passes.end(), int64_t{0});
     if (sum > limits.samples) {
-      problems.add(passes, {"limit", "found " + std::to_string(sum) + " samples a pixel in all passes; allowed: " +
-                            std::to_string(limits.samples) + " (limit samples)", {}, ""});
+      problems.add(passes, {"limit",
+                            "found " + std::to_string(sum) + " samples a pixel in all passes; allowed: " +
+                                std::to_string(limits.samples) + " (limit samples)",
+                            {},
+                            ""});
     } else {
       render.samples = static_cast<int>(sum);
     }

@@ -13,14 +13,27 @@ namespace tilelight {
 namespace {
 
 // Kinds of values in the serialisation. Stored in identities: never renumber.
-enum class Tag : char { null = 'z', no = 'f', yes = 't', number = 'n', numbers = 'N', text = 's', array = 'a', object = 'o' };
+enum class Tag : char {
+  null = 'z',
+  no = 'f',
+  yes = 't',
+  number = 'n',
+  numbers = 'N',
+  text = 's',
+  array = 'a',
+  object = 'o'
+};
 
 class Writer {
  public:
   void write(Value value) {
     switch (value.kind()) {
-      case JsonKind::null: tag(Tag::null); break;
-      case JsonKind::boolean: tag(value.boolean() ? Tag::yes : Tag::no); break;
+      case JsonKind::null:
+        tag(Tag::null);
+        break;
+      case JsonKind::boolean:
+        tag(value.boolean() ? Tag::yes : Tag::no);
+        break;
       case JsonKind::number:
         tag(Tag::number);
         number(value.number());
@@ -29,8 +42,12 @@ class Writer {
         tag(Tag::text);
         text(value.text());
         break;
-      case JsonKind::array: write_array(value); break;
-      case JsonKind::object: write_object(value); break;
+      case JsonKind::array:
+        write_array(value);
+        break;
+      case JsonKind::object:
+        write_object(value);
+        break;
     }
   }
 

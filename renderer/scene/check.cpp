@@ -45,22 +45,29 @@ bool is_in_range(double number, const Range& range) {
 Complaint range_complaint(double number, const Range& range) {
   const bool over_limit = range.is_limit && number > range.max;
   return {over_limit ? "limit" : "out_of_range",
-          "found " + number_text(number) + "; allowed: " + describe_range(range), {}, ""};
+          "found " + number_text(number) + "; allowed: " + describe_range(range),
+          {},
+          ""};
 }
 
 // Whether a value is of the JSON kind, and of the shape among equal kinds, that the rule speaks of.
 bool is_of_kind(Value value, const Rule& rule) {
   switch (rule.form) {
-    case Form::boolean: return value.is(JsonKind::boolean);
-    case Form::number: return value.is(JsonKind::number);
+    case Form::boolean:
+      return value.is(JsonKind::boolean);
+    case Form::number:
+      return value.is(JsonKind::number);
     case Form::text:
     case Form::hex_color:
-    case Form::word: return value.is(JsonKind::text);
+    case Form::word:
+      return value.is(JsonKind::text);
     case Form::numbers:
-    case Form::list: return value.is(JsonKind::array);
+    case Form::list:
+      return value.is(JsonKind::array);
     case Form::map:
     case Form::record:
-    case Form::tagged: return value.is(JsonKind::object);
+    case Form::tagged:
+      return value.is(JsonKind::object);
     case Form::any_of:
       return std::any_of(rule.options.begin(), rule.options.end(),
                          [value](const Rule& option) { return is_of_kind(value, option); });
@@ -83,22 +90,38 @@ class GrammarCheck {
       return;
     }
     switch (rule.form) {
-      case Form::boolean: check_boolean(value, rule); break;
+      case Form::boolean:
+        check_boolean(value, rule);
+        break;
       case Form::number:
         if (!is_in_range(value.number(), rule.range)) refuse(value, range_complaint(value.number(), rule.range));
         break;
-      case Form::numbers: check_numbers(value, rule); break;
-      case Form::text: break;
+      case Form::numbers:
+        check_numbers(value, rule);
+        break;
+      case Form::text:
+        break;
       case Form::hex_color:
         if (!is_hex_color(value.text())) {
-          refuse(value, {"wrong_type", "found " + describe_found(value) + "; allowed: " + describe_allowed(rule), {}, ""});
+          refuse(value,
+                 {"wrong_type", "found " + describe_found(value) + "; allowed: " + describe_allowed(rule), {}, ""});
         }
         break;
-      case Form::word: check_word(value, rule); break;
-      case Form::list: check_list(value, rule); break;
-      case Form::map: check_map(value, rule); break;
-      case Form::record: check_record(value, *rule.records[0], false); break;
-      case Form::tagged: check_tagged(value, rule); break;
+      case Form::word:
+        check_word(value, rule);
+        break;
+      case Form::list:
+        check_list(value, rule);
+        break;
+      case Form::map:
+        check_map(value, rule);
+        break;
+      case Form::record:
+        check_record(value, *rule.records[0], false);
+        break;
+      case Form::tagged:
+        check_tagged(value, rule);
+        break;
       case Form::any_of:
         check(value, *std::find_if(rule.options.begin(), rule.options.end(),
                                    [value](const Rule& option) { return is_of_kind(value, option); }));
@@ -116,7 +139,8 @@ class GrammarCheck {
         refuse_key(member, unknown_key(member.key(), record, tagged));
       } else if (field->need == Need::later) {
         refuse_key(member, {"not_in_this_release",
-                            in_quotes(member.key()) + " is of the language, but this release cannot do it yet", {},
+                            in_quotes(member.key()) + " is of the language, but this release cannot do it yet",
+                            {},
                             "leave it out"});
       } else {
         check(member, field->rule);
@@ -145,7 +169,8 @@ class GrammarCheck {
     }
     std::string hint = did_you_mean(key, known);
     if (hint.empty()) hint = "keys of your own begin with \"x-\" or go into \"extras\"";
-    return {"unknown_key", "found " + in_quotes(key) + "; allowed in a " + std::string(record.name) + ": " + join_words(known),
+    return {"unknown_key",
+            "found " + in_quotes(key) + "; allowed in a " + std::string(record.name) + ": " + join_words(known),
             std::move(known), std::move(hint)};
   }
 
@@ -159,7 +184,8 @@ class GrammarCheck {
       refuse(value, {"missing_key",
                      "found no " + in_quotes(field.key) + " in this " + std::string(record.name) + "; it is " +
                          describe_allowed(field.rule),
-                     {std::string(field.key)}, ""});
+                     {std::string(field.key)},
+                     ""});
     }
   }
 
@@ -168,7 +194,9 @@ class GrammarCheck {
       if (!value.find(keys[0])) continue;
       for (size_t i = 1; i < keys.size(); ++i) {
         if (const Value other = value.find(keys[i])) {
-          refuse_key(other, {"exclusive_keys", in_quotes(keys[0]) + " and " + in_quotes(keys[i]) + " exclude each other", {},
+          refuse_key(other, {"exclusive_keys",
+                             in_quotes(keys[0]) + " and " + in_quotes(keys[i]) + " exclude each other",
+                             {},
                              "leave one of them out"});
         }
       }
@@ -191,8 +219,8 @@ class GrammarCheck {
     }
     if (known != rule.words.end()) {
       refuse(value, {"not_in_this_release",
-                     in_quotes(value.text()) + " is of the language, but this release cannot do it yet; allowed: " +
-                         join_words(allowed),
+                     in_quotes(value.text()) +
+                         " is of the language, but this release cannot do it yet; allowed: " + join_words(allowed),
                      allowed, ""});
       return;
     }
@@ -207,7 +235,9 @@ class GrammarCheck {
     if (size >= length.min && size <= length.max && size % length.step == 0) return true;
     const bool over_limit = length.is_limit && size > length.max;
     refuse(value, {over_limit ? "limit" : "wrong_length",
-                   "found " + describe_found(value) + "; allowed: " + describe_length(length, noun), {}, ""});
+                   "found " + describe_found(value) + "; allowed: " + describe_length(length, noun),
+                   {},
+                   ""});
     return false;
   }
 
@@ -246,8 +276,12 @@ class GrammarCheck {
     if (value.is_packed() && value.size() > 0) {
       value.reject();
       for (size_t i = 0; i < std::min<size_t>(value.size(), kMaxErrorsInList); ++i) {
-        problems_.add_element(value, i, {"wrong_type", "found " + number_text(value.numbers()[i]) + "; allowed: " +
-                                         describe_allowed(rule.options[0]), {}, ""});
+        problems_.add_element(
+            value, i,
+            {"wrong_type",
+             "found " + number_text(value.numbers()[i]) + "; allowed: " + describe_allowed(rule.options[0]),
+             {},
+             ""});
       }
     }
     for (const Value entry : value.children()) check(entry, rule.options[0]);
@@ -289,14 +323,18 @@ class GrammarCheck {
 
 std::string describe_allowed(const Rule& rule) {
   switch (rule.form) {
-    case Form::boolean: return rule.only_false ? "false" : "true or false";
-    case Form::number: return describe_range(rule.range);
+    case Form::boolean:
+      return rule.only_false ? "false" : "true or false";
+    case Form::number:
+      return describe_range(rule.range);
     case Form::numbers: {
       const std::string each = rule.range.max < kMaxMagnitude ? ", each " + describe_range(rule.range) : "";
       return describe_length(rule.length, "numbers") + (rule.nonzero_vector ? ", not all 0" : "") + each;
     }
-    case Form::text: return "a string";
-    case Form::hex_color: return "\"#rrggbb\"";
+    case Form::text:
+      return "a string";
+    case Form::hex_color:
+      return "\"#rrggbb\"";
     case Form::word: {
       std::vector<std::string> words;
       for (const Word& word : rule.words) {
@@ -304,10 +342,13 @@ std::string describe_allowed(const Rule& rule) {
       }
       return join_words(words);
     }
-    case Form::list: return "a list of objects";
-    case Form::map: return "an object of named entries";
+    case Form::list:
+      return "a list of objects";
+    case Form::map:
+      return "an object of named entries";
     case Form::record:
-    case Form::tagged: return "an object";
+    case Form::tagged:
+      return "an object";
     case Form::any_of: {
       std::vector<std::string> options;
       for (const Rule& option : rule.options) options.push_back(describe_allowed(option));
@@ -319,7 +360,9 @@ std::string describe_allowed(const Rule& rule) {
 
 void report_duplicates(Document& document, Problems& problems) {
   for (const Value member : document.duplicates()) {
-    problems.add_key(member, {"duplicate_key", "found " + in_quotes(member.key()) + " more than once in one object", {},
+    problems.add_key(member, {"duplicate_key",
+                              "found " + in_quotes(member.key()) + " more than once in one object",
+                              {},
                               "leave one of them out"});
   }
 }
@@ -327,8 +370,11 @@ void report_duplicates(Document& document, Problems& problems) {
 void check_document(Value root, const Record& grammar, Problems& problems) {
   if (!root.is(JsonKind::object)) {
     root.reject();
-    problems.add(root, {"wrong_type", "found " + describe_found(root) + "; allowed: a " + std::string(grammar.name) +
-                        ", which is an object", {}, ""});
+    problems.add(
+        root, {"wrong_type",
+               "found " + describe_found(root) + "; allowed: a " + std::string(grammar.name) + ", which is an object",
+               {},
+               ""});
     return;
   }
   GrammarCheck(problems).check_record(root, grammar, false);

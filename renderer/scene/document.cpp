@@ -13,9 +13,7 @@ std::vector<Value> Document::duplicates() {
   return values;
 }
 
-std::string_view Value::text() const {
-  return std::string_view(document_->chars_).substr(node().begin, node().size);
-}
+std::string_view Value::text() const { return std::string_view(document_->chars_).substr(node().begin, node().size); }
 
 std::span<const double> Value::numbers() const {
   return std::span(document_->numbers_).subspan(node().begin, node().size);

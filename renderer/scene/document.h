@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Document: a JSON text as a compact tree of values. Nodes lie in one array and are linked by index; an array of numbers
-// is one node and its doubles lie side by side, so that a mesh of two million numbers costs 16 MB. Values remember their
-// parents and can say their JSON pointer, and whether the grammar refused them. Not thread-safe while being checked.
+// Document: a JSON text as a compact tree of values. Nodes lie in one array and are linked by index; an array of
+// numbers is one node and its doubles lie side by side, so that a mesh of two million numbers costs 16 MB. Values
+// remember their parents and can say their JSON pointer, and whether the grammar refused them. Not thread-safe while
+// being checked.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,7 @@ class Document {
     bool packed = false;    // an array of nothing but numbers: its elements lie in numbers_
     bool rejected = false;  // the grammar refused it
     uint32_t parent = 0;
-    uint32_t next = 0;  // the next sibling; 0 = none (the root is nobody's sibling)
+    uint32_t next = 0;                     // the next sibling; 0 = none (the root is nobody's sibling)
     uint32_t key_begin = 0, key_size = 0;  // in chars_
     uint32_t begin = 0, size = 0;          // text: in chars_; packed: in numbers_; others: first child and their count
     double number = 0.0;                   // a boolean is 0 or 1

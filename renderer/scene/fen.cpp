@@ -12,13 +12,20 @@ constexpr size_t kLongestFen = 128;  // eight ranks of eight men and the other f
 
 std::optional<Piece> piece_of(char letter) {
   switch (std::tolower(static_cast<unsigned char>(letter))) {
-    case 'p': return Piece::pawn;
-    case 'r': return Piece::rook;
-    case 'n': return Piece::knight;
-    case 'b': return Piece::bishop;
-    case 'q': return Piece::queen;
-    case 'k': return Piece::king;
-    default: return std::nullopt;
+    case 'p':
+      return Piece::pawn;
+    case 'r':
+      return Piece::rook;
+    case 'n':
+      return Piece::knight;
+    case 'b':
+      return Piece::bishop;
+    case 'q':
+      return Piece::queen;
+    case 'k':
+      return Piece::king;
+    default:
+      return std::nullopt;
   }
 }
 

@@ -18,7 +18,8 @@ Rule paint_rule() {
         {"size", number_rule(kPositive), "Edge of a cell", "Scene units, in the object's own frame.", "1"}}});
   Rule holder = record_rule(
       {"pattern", "A pattern in place of a colour", {{"checker", checker, "A checker", "", "", Need::required}}});
-  Rule paint = any_of({number_rule(kUnitInterval), numbers_rule(kUnitInterval, {3, 3}), {.form = Form::hex_color}, holder});
+  Rule paint =
+      any_of({number_rule(kUnitInterval), numbers_rule(kUnitInterval, {3, 3}), {.form = Form::hex_color}, holder});
   paint.shared_name = "paint";
   return paint;
 }

@@ -41,7 +41,7 @@ struct Word {
 enum class Form : uint8_t {
   boolean,
   number,
-  numbers,    // a list of numbers
+  numbers,  // a list of numbers
   text,
   hex_color,  // "#rrggbb"
   word,       // one of a few strings

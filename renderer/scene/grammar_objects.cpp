@@ -16,7 +16,8 @@ Rule material_rule(const std::shared_ptr<const Record>& material) {
 }
 
 Field material_field(const std::shared_ptr<const Record>& material) {
-  return {"material", material_rule(material), "Material", "A name under `materials`, or a material. Absent: plain grey."};
+  return {"material", material_rule(material), "Material",
+          "A name under `materials`, or a material. Absent: plain grey."};
 }
 
 Field detail_field() {
@@ -30,12 +31,11 @@ std::vector<Field> transform_fields() {
   scale.shared_name = "scale";
   Rule quaternion = numbers_rule(kAnyNumber, {4, 4});
   quaternion.nonzero_vector = true;
-  Rule rotation = record_rule(
-      {"rotation",
-       "A rotation about an axis",
-       {{"axis", direction_rule(), "Axis", "Need not be of unit length.", "", Need::required},
-        {"angle", number_rule({.min = -1e9, .max = 1e9}), "Angle", "Degrees, counter-clockwise seen against the axis.",
-         "", Need::required}}});
+  Rule rotation = record_rule({"rotation",
+                               "A rotation about an axis",
+                               {{"axis", direction_rule(), "Axis", "Need not be of unit length.", "", Need::required},
+                                {"angle", number_rule({.min = -1e9, .max = 1e9}), "Angle",
+                                 "Degrees, counter-clockwise seen against the axis.", "", Need::required}}});
   return {{"scale", scale, "Scale about the object's pivot", "Done first; one factor or three."},
           {"rotate_deg", rotation, "Rotation about the object's pivot", "Done after the scale."},
           {"rotate_quat", quaternion, "Rotation about the object's pivot as a quaternion",
@@ -94,17 +94,19 @@ Rule objects_grammar(const Limits& limits, const std::shared_ptr<const Record>& 
                     {{"center", vector_rule(), "Centre", "Scene units. The pivot.", "[0, 0, 0]"},
                      {"size", number_rule(kPositive), "Edge", "Scene units.", "1"},
                      material_choice}),
-      object_record("box", "A box along the axes; flat where min = max",
-                    {{"min", vector_rule(), "Least corner", "Scene units. The pivot is the middle.", "[-0.5, -0.5, -0.5]"},
-                     {"max", vector_rule(), "Greatest corner", "Scene units.", "[0.5, 0.5, 0.5]"},
-                     material_choice}),
+      object_record(
+          "box", "A box along the axes; flat where min = max",
+          {{"min", vector_rule(), "Least corner", "Scene units. The pivot is the middle.", "[-0.5, -0.5, -0.5]"},
+           {"max", vector_rule(), "Greatest corner", "Scene units.", "[0.5, 0.5, 0.5]"},
+           material_choice}),
       object_record("plane", "An infinite plane",
                     {{"point", vector_rule(), "A point of it", "Scene units. The pivot.", "[0, 0, 0]"},
                      {"normal", direction_rule(), "Normal", "Need not be of unit length.", "[0, 1, 0]"},
                      material_choice}),
-      object_record("mesh", "A triangle mesh",
-                    {{"mesh", text_rule(), "Mesh", "A name under `meshes`. The pivot is its origin.", "", Need::required},
-                     material_choice}),
+      object_record(
+          "mesh", "A triangle mesh",
+          {{"mesh", text_rule(), "Mesh", "A name under `meshes`. The pivot is its origin.", "", Need::required},
+           material_choice}),
       chess_piece_record(material),
       chess_position_record(material)};
   return list_of(std::move(object), {.min = 1, .max = limits.objects, .is_limit = true});

@@ -45,7 +45,8 @@ bool report_newer_version(Value root, Problems& problems) {
   if (!version || !version.is(JsonKind::number) || version.number() <= kVersion) return false;
   problems.add(version, {"newer_version",
                          "found version " + number_text(version.number()) +
-                             " of the scene language; allowed: up to 1, which is what this release reads", {"1"},
+                             " of the scene language; allowed: up to 1, which is what this release reads",
+                         {"1"},
                          "take a newer release, or write the scene in version 1"});
   return true;
 }

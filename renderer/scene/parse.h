@@ -16,8 +16,8 @@ namespace tilelight {
 // One thing wrong with a document. `pointer` is a JSON pointer (RFC 6901) into it.
 struct SceneError {
   std::string pointer;
-  std::string code;                  // unknown_key, wrong_type, out_of_range, unknown_name, not_in_this_release, limit, ...
-  std::string detail;                // what was found and what is allowed
+  std::string code;    // unknown_key, wrong_type, out_of_range, unknown_name, not_in_this_release, limit, ...
+  std::string detail;  // what was found and what is allowed
   std::vector<std::string> allowed;  // the allowed words, where they are few
   std::string hint;                  // did-you-mean, or what to do; may be empty
   int line = 0, column = 0;          // 1-based place in the text; 0 where unknown
@@ -36,8 +36,8 @@ struct SceneErrors {
 struct ParsedScene {
   Scene scene;
   View view;
-  std::string scene_id;              // SHA-256 of the canonical document, 64 hexadecimal digits
-  std::string compile_key;           // the same without camera, image and render: equal keys compile equally
+  std::string scene_id;     // SHA-256 of the canonical document, 64 hexadecimal digits
+  std::string compile_key;  // the same without camera, image and render: equal keys compile equally
   std::vector<SceneWarning> warnings;
 };
 

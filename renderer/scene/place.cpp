@@ -85,8 +85,8 @@ class Scanner {
     for (Wanted* want : wanted) {
       if (want->tokens.size() == depth && !want->at_key) want->offset = at_;
     }
-    const bool descend = std::any_of(wanted.begin(), wanted.end(),
-                                     [depth](const Wanted* want) { return want->tokens.size() > depth; });
+    const bool descend =
+        std::any_of(wanted.begin(), wanted.end(), [depth](const Wanted* want) { return want->tokens.size() > depth; });
     if (!descend) {
       skip_value();
     } else if (text_[at_] == '{') {
@@ -118,8 +118,7 @@ class Scanner {
     for (skip_blank(); text_[at_] != '}'; skip_blank()) {
       const size_t key_at = at_;
       skip_string();
-      const std::vector<Wanted*> inside =
-          narrow(wanted, depth, unescape(text_.substr(key_at + 1, at_ - key_at - 2)));
+      const std::vector<Wanted*> inside = narrow(wanted, depth, unescape(text_.substr(key_at + 1, at_ - key_at - 2)));
       for (Wanted* want : inside) {
         if (want->at_key && want->tokens.size() == depth + 1) want->offset = key_at;
       }

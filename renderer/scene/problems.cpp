@@ -34,8 +34,10 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 void Problems::add_at(std::string pointer, bool at_key, Complaint complaint) {
   if (full()) return;
   if (errors_.size() + 1 == kMaxErrors) {
-    complaint = {"too_many_errors", "more than " + std::to_string(kMaxErrors - 1) + " errors; this is the first not listed",
-                 {}, "repair the errors listed and try again"};
+    complaint = {"too_many_errors",
+                 "more than " + std::to_string(kMaxErrors - 1) + " errors; this is the first not listed",
+                 {},
+                 "repair the errors listed and try again"};
   }
   errors_.push_back({std::move(pointer), std::move(complaint.code), std::move(complaint.detail),
                      std::move(complaint.allowed), std::move(complaint.hint)});
@@ -77,18 +79,21 @@ std::string number_text(double number) {
 }
 
 std::string describe_found(Value value) {
-  const auto plural = [](size_t n, const char* noun) {
-    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-  };
+  const auto plural = [](size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); };
   switch (value.kind()) {
-    case JsonKind::null: return "null";
-    case JsonKind::boolean: return value.boolean() ? "true" : "false";
-    case JsonKind::number: return number_text(value.number());
-    case JsonKind::text: return in_quotes(value.text()) + " (a string)";
+    case JsonKind::null:
+      return "null";
+    case JsonKind::boolean:
+      return value.boolean() ? "true" : "false";
+    case JsonKind::number:
+      return number_text(value.number());
+    case JsonKind::text:
+      return in_quotes(value.text()) + " (a string)";
     case JsonKind::array:
       if (value.size() == 0) return "an empty list";
       return "a list of " + plural(value.size(), value.is_packed() ? "number" : "value");
-    case JsonKind::object: return "an object of " + plural(value.size(), "member");
+    case JsonKind::object:
+      return "an object of " + plural(value.size(), "member");
   }
   return "";
 }

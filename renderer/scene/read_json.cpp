@@ -62,10 +62,14 @@ class Reader {
     const TextPlace place = place_of_offset(text_, position > 0 ? position - 1 : 0);
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
-      errors_ = one_error(SceneErrors::Kind::invalid,
-                          {builder_.next_pointer(), "out_of_range",
-                           "found the number " + in_quotes(token) + "; allowed: numbers that a double can hold, up to 1.8e308",
-                           {}, "", place.line, place.column});
+      errors_ = one_error(SceneErrors::Kind::invalid, {builder_.next_pointer(),
+                                                       "out_of_range",
+                                                       "found the number " + in_quotes(token) +
+                                                           "; allowed: numbers that a double can hold, up to 1.8e308",
+                                                       {},
+                                                       "",
+                                                       place.line,
+                                                       place.column});
     } else {
       errors_ = one_error(SceneErrors::Kind::not_json,
                           {"", "not_json", readable_message(error.what()), {}, "", place.line, place.column});
@@ -89,8 +93,8 @@ class Reader {
 
   bool open(JsonKind kind) {
     if (builder_.depth() < static_cast<size_t>(limits_.json_depth)) return counted(builder_.open(kind));
-    refuse("nested deeper than " + std::to_string(limits_.json_depth) + " levels; allowed: " +
-           std::to_string(limits_.json_depth) + " (limit json_depth)");
+    refuse("nested deeper than " + std::to_string(limits_.json_depth) +
+           " levels; allowed: " + std::to_string(limits_.json_depth) + " (limit json_depth)");
     return false;
   }
 
@@ -110,10 +114,13 @@ class Reader {
   // Nodes count bytes in 32 bits; no configuration may raise the limit beyond that.
   const auto most_bytes = std::min<uint64_t>(static_cast<uint64_t>(limits.bytes), std::numeric_limits<int32_t>::max());
   if (text.size() > most_bytes) {
-    return ::tl::unexpected(one_error(
-        SceneErrors::Kind::too_large, {"", "limit",
-                                       "found " + std::to_string(text.size()) + " bytes; allowed: at most " +
-                                           std::to_string(most_bytes) + " (limit bytes)", {}, ""}));
+    return ::tl::unexpected(
+        one_error(SceneErrors::Kind::too_large, {"",
+                                                 "limit",
+                                                 "found " + std::to_string(text.size()) + " bytes; allowed: at most " +
+                                                     std::to_string(most_bytes) + " (limit bytes)",
+                                                 {},
+                                                 ""}));
   }
   Reader reader(text, limits);
   const bool accepted = json::sax_parse(text.begin(), text.end(), &reader);

@@ -42,7 +42,7 @@ enum class LightKind { point, directional };
 struct Light {
   std::string name;
   LightKind kind = LightKind::point;
-  Vec3 position{0.0};   // point: scene units
+  Vec3 position{0.0};              // point: scene units
   Vec3 direction{0.0, -1.0, 0.0};  // directional: the way the light travels, not normalised
   Color color{1.0};
   double intensity = 1.0;
@@ -105,7 +105,7 @@ using Shape = std::variant<SphereShape, BoxShape, PlaneShape, MeshShape, ChessPi
 struct Object {
   std::string name;
   Shape shape;
-  MaterialId material = 0;    // unused by ChessPositionShape
+  MaterialId material = 0;     // unused by ChessPositionShape
   Mat4 world_from_shape{1.0};  // the user's transform, after the shape's own placement; never singular
   bool operator==(const Object&) const = default;
 };
@@ -163,10 +163,10 @@ struct RenderSpec {
   int ray_budget = 4096;         // rays a pixel sample
   uint32_t seed = 0;
   // Stop rules; the first that holds ends the render.
-  std::optional<int> samples;     // a pixel; parsing always sets it
-  bool samples_implied = false;   // nobody asked for `samples`: it follows from the other rules or is the default
+  std::optional<int> samples;    // a pixel; parsing always sets it
+  bool samples_implied = false;  // nobody asked for `samples`: it follows from the other rules or is the default
   std::optional<double> time_ms;
-  std::vector<int> passes;        // an exact replay; empty = not asked for
+  std::vector<int> passes;  // an exact replay; empty = not asked for
   bool operator==(const RenderSpec&) const = default;
 };
 

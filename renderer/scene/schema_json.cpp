@@ -45,16 +45,24 @@ class SchemaWriter {
 
   json plain_schema(const Rule& rule) {
     switch (rule.form) {
-      case Form::boolean: return rule.only_false ? json{{"const", false}} : json{{"type", "boolean"}};
-      case Form::number: return number_schema(rule.range);
-      case Form::numbers: return numbers_schema(rule);
-      case Form::text: return {{"type", "string"}};
+      case Form::boolean:
+        return rule.only_false ? json{{"const", false}} : json{{"type", "boolean"}};
+      case Form::number:
+        return number_schema(rule.range);
+      case Form::numbers:
+        return numbers_schema(rule);
+      case Form::text:
+        return {{"type", "string"}};
       case Form::hex_color:
         return {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}, {"description", "sRGB, made linear"}};
-      case Form::word: return word_schema(rule);
-      case Form::list: return list_schema(rule);
-      case Form::map: return map_schema(rule);
-      case Form::record: return record_reference(*rule.records[0], nullptr);
+      case Form::word:
+        return word_schema(rule);
+      case Form::list:
+        return list_schema(rule);
+      case Form::map:
+        return map_schema(rule);
+      case Form::record:
+        return record_reference(*rule.records[0], nullptr);
       case Form::tagged: {
         json records = json::array();
         for (const auto& record : rule.records) records.push_back(record_reference(*record, &rule));

@@ -25,7 +25,8 @@ Vector unit(Vector v) {
 
 Mat3 read_scale(Value object) {
   const Value scale = find_accepted(object, "scale");
-  const Vec3 factors = scale && scale.is(JsonKind::number) ? Vec3(scale.number()) : read_vector(object, "scale", Vec3(1.0));
+  const Vec3 factors =
+      scale && scale.is(JsonKind::number) ? Vec3(scale.number()) : read_vector(object, "scale", Vec3(1.0));
   Mat3 matrix(0.0);
   for (int i = 0; i < 3; ++i) matrix[i][i] = factors[i];
   return matrix;
@@ -62,10 +63,13 @@ Mat4 read_matrix(Value value, Problems& problems) {
                          "found " + number_text(last_row[0]) + ", " + number_text(last_row[1]) + ", " +
                              number_text(last_row[2]) + ", " + number_text(last_row[3]) +
                              " at places 3, 7, 11 and 15; allowed: 0, 0, 0, 1",
-                         {}, "matrices are column-major: a translation stands at places 12, 13, 14"});
+                         {},
+                         "matrices are column-major: a translation stands at places 12, 13, 14"});
   } else if (is_singular(Mat3(matrix))) {
-    problems.add(value, {"singular", "found a matrix of determinant 0, which flattens the object; allowed: any other",
-                         {}, "a box may be flat by itself: give it min = max along one axis"});
+    problems.add(value, {"singular",
+                         "found a matrix of determinant 0, which flattens the object; allowed: any other",
+                         {},
+                         "a box may be flat by itself: give it min = max along one axis"});
   }
   return matrix;
 }
@@ -133,8 +137,12 @@ Mat4 read_transform(Value object, const Vec3& pivot, Problems& problems) {
   if (!is_moderate(world_from_shape) || is_singular(linear)) {
     const Value scale = object.find("scale");
     problems.add(scale ? scale : object,
-                 {"out_of_range", "found a transform whose numbers leave the range of doubles; allowed: entries that "
-                                  "are neither all lost to rounding nor beyond " + number_text(kMaxEntry), {}, ""});
+                 {"out_of_range",
+                  "found a transform whose numbers leave the range of doubles; allowed: entries that "
+                  "are neither all lost to rounding nor beyond " +
+                      number_text(kMaxEntry),
+                  {},
+                  ""});
   }
   return world_from_shape;
 }

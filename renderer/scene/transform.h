@@ -8,8 +8,8 @@
 
 namespace tilelight {
 
-// world_from_shape of a checked object: `scale`, then the rotation, both about `pivot`, then `translate`; or `matrix` as
-// it stands. Reports a matrix that is singular or not affine, and a result that leaves the range of numbers.
+// world_from_shape of a checked object: `scale`, then the rotation, both about `pivot`, then `translate`; or `matrix`
+// as it stands. Reports a matrix that is singular or not affine, and a result that leaves the range of numbers.
 Mat4 read_transform(Value object, const Vec3& pivot, Problems& problems);
 
 // A rotation about an axis of any length but 0, counter-clockwise seen against it; exact at quarter turns.
