@@ -122,7 +122,8 @@ class Builder {
     const double lo = centroid_box.lo[axis];
     const double scale = kBins / extent[axis];
     const auto bin_of = [&](uint32_t i) {
-      return std::min(kBins - 1, static_cast<int>((centroids_[i][axis] - lo) * scale));
+      // The minimum comes before the conversion: a denormal extent makes the scale infinite.
+      return static_cast<int>(std::min(kBins - 1.0, (centroids_[i][axis] - lo) * scale));
     };
     std::array<Box, kBins> bins{};
     std::array<uint32_t, kBins> counts{};
