@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/app.h"
+
+#include <condition_variable>
+
+namespace tilelight::server {
+namespace {
+
+constexpr double kDrainMs = 2'000.0;    // for running renders to end by themselves
+constexpr double kAnswerMs = 1'000.0;   // for the last answers to reach their clients
+constexpr int kFreeWorkers = 32;        // that never wait for a render, so that other requests are always answered
+constexpr int64_t kSceneStoreBytes = int64_t{256} << 20;
+constexpr size_t kMaxRecords = 10'000;  // of jobs; the oldest ended ones go
+
+bool log_as_json(LogFormat format) {
+  return format == LogFormat::json || (format == LogFormat::automatic && !Log::standard_error_is_terminal());
+}
+
+FrontOptions front_options(const Config& config) {
+  FrontOptions options;
+  options.host = config.host;
+  options.port = config.port;
+  options.workers = config.max_waiting + kFreeWorkers;
+  options.limits.body_bytes = config.limits.bytes;
+  options.head_timeout_ms = config.head_timeout_ms;
+  return options;
+}
+
+FrontOptions admin_options(const Config& config) {
+  FrontOptions options;
+  options.host = config.admin_host;
+  options.port = config.admin_port;
+  options.workers = 2;
+  options.max_connections = 64;
+  options.limits.body_bytes = 0;
+  options.head_timeout_ms = config.head_timeout_ms;
+  return options;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<App>> App::open(Config config, const Clock& clock) {
+  std::unique_ptr<App> app(new App(std::move(config), clock));
+  auto http = HttpServer::bind(front_options(app->config_), api_routes(), app->services_);
+  if (!http) return fail(http.error().code, http.error().detail + " (--port)");
+  auto admin = HttpServer::bind(admin_options(app->config_), admin_routes(), app->services_);
+  if (!admin) return fail(admin.error().code, admin.error().detail + " (--admin-port)");
+  app->http_ = std::move(*http);
+  app->admin_ = std::move(*admin);
+  app->add_gauges();
+  return app;
+}
+
+App::App(Config config, const Clock& clock)
+    : config_(std::move(config)),
+      log_(config_.log_level, log_as_json(config_.log_format)),
+      pool_(config_.threads),
+      scenes_(kSceneStoreBytes),
+      compiled_(CompiledCache::make(pool_, metrics_, config_.scene_cache_mb << 20)),
+      queue_(JobQueue::make(pool_, compiled_, metrics_, log_, clock, {config_.max_queue})),
+      jobs_(Jobs::make(std::make_unique<MemoryJobStore>(kMaxRecords), {config_.max_results, config_.results_mb << 20})),
+      sessions_(pool_, clock, config_.max_sessions),
+      keys_(clock),
+      waits_(config_.max_waiting),
+      services_{config_, log_,    metrics_, pool_,  scenes_,     *compiled_, *queue_,
+                *jobs_,  sessions_, keys_,    waits_, is_stopping_} {}
+
+void App::add_gauges() {
+  metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.", [this] { return queue_->counts().queued; });
+  metrics_.gauge("tilelight_renders_running", "Renders that have started.", [this] { return queue_->counts().running; });
+  metrics_.gauge("tilelight_jobs", "Jobs on record.", [this] { return static_cast<double>(jobs_->count()); });
+  metrics_.gauge("tilelight_sessions", "Interactive sessions.", [this] { return sessions_.count(); });
+  metrics_.gauge("tilelight_scenes_stored", "Scenes stored by clients.", [this] { return static_cast<double>(scenes_.count()); });
+  metrics_.gauge("tilelight_scene_cache_bytes", "Memory of compiled scenes.", [this] { return static_cast<double>(compiled_->bytes()); });
+  metrics_.gauge("tilelight_waiting_slots_free", "Requests that may still wait.", [this] { return waits_.free(); });
+  metrics_.gauge("tilelight_http_connections", "Open connections.", [this] { return static_cast<double>(http_->connection_count()); });
+  metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
+}
+
+void App::start() {
+  http_->start();
+  admin_->start();
+  housekeeper_ = std::jthread([this](std::stop_token stop) { housekeep(stop); });
+}
+
+// Sessions are also looked through on every use; this ends them where nobody comes.
+void App::housekeep(std::stop_token stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  while (!never.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); })) sessions_.close_idle();
+}
+
+void App::stop() {
+  if (has_stopped_) return;
+  has_stopped_ = true;
+  is_stopping_.store(true, std::memory_order_release);
+  sessions_.close_all();
+  queue_->drain(kDrainMs);
+  if (http_) http_->stop(kAnswerMs);
+  if (admin_) admin_->stop(kAnswerMs);
+  housekeeper_ = {};
+}
+
+std::string App::url() const {
+  const bool is_any = config_.host == "0.0.0.0" || config_.host == "::";
+  std::string host = is_any ? "localhost" : config_.host;
+  if (host.find(':') != std::string::npos) host = "[" + host + "]";
+  return "http://" + host + ":" + std::to_string(port()) + "/";
+}
+
+}  // namespace tilelight::server

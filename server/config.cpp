@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace tilelight::server {
+namespace {
+
+std::string with(std::string_view name, char from, char to) {
+  std::string out(name);
+  std::replace(out.begin(), out.end(), from, to);
+  return out;
+}
+
+std::string environment_name(const Setting& setting) {
+  std::string out = "TILELIGHT_" + with(setting.name, '-', '_');
+  for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
+
+Result<int64_t> whole_number(const std::string& text, int64_t low, int64_t high) {
+  int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high) return value;
+  return fail("bad_value",
+              "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+template <class Int>
+auto number(Int Config::*field, int64_t low, int64_t high) {
+  return [=](Config& config, const std::string& text) -> Result<void> {
+    return whole_number(text, low, high).map([&](int64_t value) { config.*field = static_cast<Int>(value); });
+  };
+}
+
+template <class Int>
+auto limit(Int Limits::*field, int64_t low, int64_t high) {
+  return [=](Config& config, const std::string& text) -> Result<void> {
+    return whole_number(text, low, high).map([&](int64_t value) { config.limits.*field = static_cast<Int>(value); });
+  };
+}
+
+auto text_field(std::string Config::*field) {
+  return [=](Config& config, const std::string& text) -> Result<void> {
+    config.*field = text;
+    return {};
+  };
+}
+
+Result<bool> truth(const std::string& text) {
+  if (text == "true" || text == "1" || text.empty()) return true;
+  if (text == "false" || text == "0") return false;
+  return fail("bad_value", "'" + text + "' is neither true nor false");
+}
+
+Result<void> set_allow_open(Config& config, const std::string& text) {
+  return truth(text).map([&](bool value) { config.allow_open = value; });
+}
+
+Result<void> set_quiet(Config& config, const std::string& text) {
+  return truth(text).map([&](bool value) {
+    if (value) config.log_level = "warn";
+  });
+}
+
+Result<void> set_allowed_hosts(Config& config, const std::string& text) {
+  std::stringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (!word.empty()) config.allowed_hosts.push_back(word);
+  }
+  return {};
+}
+
+Result<void> set_log_level(Config& config, const std::string& text) {
+  for (const char* known : {"debug", "info", "warn", "error", "off"}) {
+    if (text == known) return config.log_level = text, Result<void>{};
+  }
+  return fail("bad_value", "'" + text + "' is none of debug, info, warn, error, off");
+}
+
+Result<void> set_log_format(Config& config, const std::string& text) {
+  if (text == "auto") return config.log_format = LogFormat::automatic, Result<void>{};
+  if (text == "text") return config.log_format = LogFormat::text, Result<void>{};
+  if (text == "json") return config.log_format = LogFormat::json, Result<void>{};
+  return fail("bad_value", "'" + text + "' is none of auto, text, json");
+}
+
+Result<void> set_data_dir(Config& config, const std::string& text) {
+  if (text != ":memory:") {
+    return fail("not_in_this_release",
+                "'" + text + "': this release keeps jobs in memory only; the one accepted value is :memory:");
+  }
+  config.data_dir = text;
+  return {};
+}
+
+const Setting* find_setting(std::string_view name) {
+  for (const Setting& setting : settings()) {
+    if (setting.name == name) return &setting;
+  }
+  return nullptr;
+}
+
+Result<void> apply(Config& config, const Setting& setting, const std::string& value, const std::string& source) {
+  if (auto set = setting.set(config, value); !set) return fail(set.error().code, source + ": " + set.error().detail);
+  return {};
+}
+
+Result<void> apply_file(Config& config, const std::string& path) {
+  const auto members = read_config_file(path);
+  if (!members) return ::tl::unexpected(members.error());
+  for (const auto& [key, value] : *members) {
+    const Setting* setting = find_setting(with(key, '_', '-'));
+    if (!setting) return fail("unknown_name", path + ": there is no setting '" + key + "' (tilelightd --help names all)");
+    if (auto done = apply(config, *setting, value, path + ": " + key); !done) return done;
+  }
+  return {};
+}
+
+Result<void> apply_environment(Config& config, const std::map<std::string, std::string>& environment) {
+  for (const auto& [name, value] : environment) {
+    if (name.rfind("TILELIGHT_", 0) != 0 || name == "TILELIGHT_CONFIG") continue;
+    const auto& all = settings();
+    const auto setting = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return environment_name(s) == name; });
+    if (setting == all.end()) return fail("unknown_name", "the environment sets " + name + ", which is no setting");
+    if (auto done = apply(config, *setting, value, name); !done) return done;
+  }
+  return {};
+}
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> table = {
+      {"host", "ADDRESS", "address to listen on [127.0.0.1]", text_field(&Config::host)},
+      {"port", "N", "port to listen on; 0 picks a free one [8080]", number(&Config::port, 0, 65535)},
+      {"admin-host", "ADDRESS", "address of health checks and metrics [127.0.0.1]", text_field(&Config::admin_host)},
+      {"admin-port", "N", "port of health checks and metrics; 0 picks a free one [8081]",
+       number(&Config::admin_port, 0, 65535)},
+      {"data-dir", ":memory:", "where jobs are kept; this release: in memory only [:memory:]", set_data_dir},
+      {"allow-open", "", "allow a public address although there are no keys", set_allow_open},
+      {"allowed-hosts", "NAMES", "names accepted in the Host header beside localhost and addresses, with commas",
+       set_allowed_hosts},
+      {"threads", "N", "render threads; 0: one a hardware thread [0]", number(&Config::threads, 0, 1024)},
+      {"max-queue", "N", "renders that may wait for their start; more are answered 503 [256]",
+       number(&Config::max_queue, 0, 1'000'000)},
+      {"max-sessions", "N", "interactive sessions at once [64]", number(&Config::max_sessions, 0, 100'000)},
+      {"scene-cache-mb", "MB", "compiled scenes kept for reuse [1024]", number(&Config::scene_cache_mb, 0, 1 << 20)},
+      {"results-mb", "MB", "finished images kept [512]", number(&Config::results_mb, 1, 1 << 20)},
+      {"max-results", "N", "finished renders kept [1000]", number(&Config::max_results, 1, 1'000'000)},
+      {"max-body-bytes", "N", "largest scene document [16777216]", limit(&Limits::bytes, 1024, int64_t{1} << 30)},
+      {"max-pixels", "N", "largest image [16777216]", limit(&Limits::pixels, 1, int64_t{1} << 32)},
+      {"max-samples", "N", "most samples a pixel [4096]", limit(&Limits::samples, 1, 1 << 24)},
+      {"quiet", "", "log warnings and errors only", set_quiet},
+      {"log-level", "LEVEL", "debug, info, warn, error or off [info]", set_log_level},
+      {"log-format", "FORMAT", "text, json, or auto: text on a terminal, JSON lines otherwise [auto]", set_log_format},
+  };
+  return table;
+}
+
+std::map<std::string, std::string> process_environment() {
+  std::map<std::string, std::string> out;
+  for (char** entry = environ; entry && *entry; ++entry) {
+    const std::string_view text = *entry;
+    const size_t equals = text.find('=');
+    if (equals != std::string_view::npos) out.emplace(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return out;
+}
+
+Result<ConfigRequest> load_config(int argc, const char* const* argv,
+                                  const std::map<std::string, std::string>& environment) {
+  CLI::App app("Tilelight render server: POST a scene, get an image.", "tilelightd");
+  app.set_version_flag("--version", "tilelightd " TILELIGHT_VERSION);
+  std::string file;
+  if (const auto named = environment.find("TILELIGHT_CONFIG"); named != environment.end()) file = named->second;
+  app.add_option("--config", file, "JSON file with these settings, e.g. {\"max_queue\": 64}")->type_name("FILE");
+  std::vector<std::pair<const Setting*, std::string>> flags;
+  for (const Setting& setting : settings()) {
+    const std::string flag = "--" + std::string(setting.name);
+    if (setting.value_name.empty()) {
+      app.add_flag_callback(flag, [&] { flags.emplace_back(&setting, "true"); }, std::string(setting.help));
+    } else {
+      app.add_option_function<std::string>(
+             flag, [&](const std::string& value) { flags.emplace_back(&setting, value); }, std::string(setting.help))
+          ->type_name(std::string(setting.value_name));
+    }
+  }
+  ConfigRequest request;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    std::ostringstream out;
+    app.exit(asked, out, out);
+    request.help_or_version = true;
+    request.text = out.str();
+    return request;
+  } catch (const CLI::ParseError& error) {
+    return fail("bad_flag", std::string(error.what()) + " (tilelightd --help names all settings)");
+  }
+  Config& config = request.config;
+  if (!file.empty()) {
+    if (auto done = apply_file(config, file); !done) return ::tl::unexpected(done.error());
+  }
+  if (auto done = apply_environment(config, environment); !done) return ::tl::unexpected(done.error());
+  for (const auto& [setting, value] : flags) {
+    if (auto done = apply(config, *setting, value, "--" + std::string(setting->name)); !done) {
+      return ::tl::unexpected(done.error());
+    }
+  }
+  if (!is_loopback(config.host) && !config.allow_open) {
+    return fail("public_bind", "--host " + config.host +
+                                   " can be reached from other machines and there are no keys; say --allow-open if "
+                                   "that is meant (a proxy or a firewall in front), or bind 127.0.0.1");
+  }
+  return request;
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Config: everything an operator can set. Defaults < file (--config, JSON) < TILELIGHT_* environment < flags; one table
+// names every setting for all three, and a name that is not in it refuses to start. A leaf; plain values.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/renderer.h"
+
+namespace tilelight::server {
+
+enum class LogFormat { automatic, text, json };  // automatic: text on a terminal, JSON lines otherwise
+
+struct Config {
+  std::string host = "127.0.0.1";
+  int port = 8080;  // 0: any free one
+  std::string admin_host = "127.0.0.1";
+  int admin_port = 8081;  // 0: any free one
+  std::string data_dir = ":memory:";
+  bool allow_open = false;                 // a public bind without keys
+  std::vector<std::string> allowed_hosts;  // names accepted in Host beside localhost and addresses
+  int threads = 0;                         // of the tile pool; 0: one a hardware thread
+  int max_queue = 256;                     // renders that wait for their start
+  int max_sessions = 64;
+  int64_t scene_cache_mb = 1024;  // compiled scenes kept for reuse
+  int64_t results_mb = 512;       // finished images kept
+  int max_results = 1000;
+  std::string log_level = "info";
+  LogFormat log_format = LogFormat::automatic;
+  Limits limits;
+
+  // Not for operators: the front's patience, which tests shorten.
+  double head_timeout_ms = 10'000.0;
+  int max_waiting = 160;  // requests that wait for a render, a change or a frame
+};
+
+struct ConfigRequest {
+  Config config;
+  bool help_or_version = false;  // `text` says it; the program ends with 0
+  std::string text;
+};
+
+// Reads file, environment and flags. The error is a sentence for the operator.
+Result<ConfigRequest> load_config(int argc, const char* const* argv, const std::map<std::string, std::string>& environment);
+
+// The process's environment as a map.
+std::map<std::string, std::string> process_environment();
+
+// One setting of the table. Its name serves as --max-queue, TILELIGHT_MAX_QUEUE and "max_queue".
+struct Setting {
+  std::string_view name;
+  std::string_view value_name;  // empty: a switch
+  std::string_view help;
+  std::function<Result<void>(Config&, const std::string&)> set;
+};
+const std::vector<Setting>& settings();
+
+// The members of a flat JSON object as text: {"port": 80, "quiet": true} -> {port: "80", quiet: "true"}.
+Result<std::map<std::string, std::string>> read_config_file(const std::string& path);
+
+}  // namespace tilelight::server

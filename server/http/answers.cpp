@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "server/http/handlers.h"
+#include "server/http/documents.h"
+
+namespace tilelight::server {
+
+::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take() {
+  if (free_.fetch_sub(1, std::memory_order_relaxed) > 0) return Slot(this);
+  free_.fetch_add(1, std::memory_order_relaxed);
+  return busy("too_many_waiting", "as many requests wait for results as the server allows; ask again, or ask for a job "
+                                  "(Prefer: respond-async) and come back for it", 1);
+}
+
+double wait_seconds(const Request& request, double default_s) {
+  constexpr double kMostS = 60.0;
+  return std::min(read_preferences(request).wait_s.value_or(default_s), kMostS);
+}
+
+::tl::unexpected<Problem> refused(Services& services, const Error& error) {
+  if (error.code == "stopping") return busy("stopping", error.detail, 5);
+  // About a second for every two renders that wait, which is right within a factor for pictures of a megapixel.
+  const int retry_s = std::clamp(services.queue.counts().queued / 2, 1, 60);
+  return busy(error.code, error.detail, retry_s);
+}
+
+std::string server_timing(const WorkStatus& status) {
+  const Timings& t = status.timings;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "parse;dur=%.2f, queue;dur=%.2f, compile;dur=%.2f, plan;dur=%.2f, render;dur=%.2f, encode;dur=%.2f",
+                t.parse_ms, t.queue_ms, t.compile_ms, t.plan_ms, t.render_ms, t.encode_ms);
+  return text;
+}
+
+std::string render_info(int spp, std::string_view stop, const RenderReport& report) {
+  std::string out = "spp=" + std::to_string(spp);
+  if (!stop.empty()) out += ", stop=\"" + std::string(stop) + "\"";
+  if (!report.points.empty()) out += ", nonfinite=" + std::to_string(report.points.back().nonfinite);
+  return out;
+}
+
+Response image_response(const RenderWork& work, const EncodedImage& image, ImageFormat format) {
+  const WorkStatus status = work.status();
+  Response response{200, {}, std::string(media_type(format)), image.bytes};
+  response.with("ETag", image.etag)
+      .with("Vary", "Accept")
+      .with("Server-Timing", server_timing(status))
+      .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));
+  return response;
+}
+
+Response accepted_response(const JobRecord& record, const Request& request) {
+  Response response = json_response(202, job_json(record));
+  const double eta_s = record.status.progress.eta_ms / 1000.0;
+  const int retry_s = std::clamp(static_cast<int>(std::ceil(eta_s)), 1, 30);
+  response.with("Location", "/v1/renders/" + record.id)
+      .with("Retry-After", std::to_string(retry_s))
+      .with("Vary", "Accept, Prefer")
+      .with("Cache-Control", "no-store");
+  const Preferences preferences = read_preferences(request);
+  if (preferences.respond_async) {
+    response.with("Preference-Applied", "respond-async");
+  } else if (preferences.wait_s) {
+    response.with("Preference-Applied", "wait=" + std::to_string(static_cast<int>(wait_seconds(request, 0.0))));
+  }
+  return response;
+}
+
+::tl::unexpected<Problem> ended_without_image(const WorkStatus& status) {
+  if (status.state == JobState::failed) return problem(500, "render_failed", status.error);
+  return busy("cancelled", status.error.empty() ? "the render was cancelled" : status.error, 1);
+}
+
+}  // namespace tilelight::server

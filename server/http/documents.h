@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The documents that the API answers with. Pure.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/config.h"
+#include "server/jobs/job.h"
+
+namespace tilelight::server {
+
+std::string job_json(const JobRecord& record);
+std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [...]}, without plans and reports
+std::string report_csv(const RenderReport& report);
+
+std::string scene_document(std::string_view id, const std::vector<SceneWarning>& warnings);
+std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan);
+std::string session_document(std::string_view id, std::string_view scene_id, const std::vector<SceneWarning>& warnings,
+                             const ViewPlan& plan);
+std::string limits_document(const Config& config);
+std::string version_document(int threads);
+
+}  // namespace tilelight::server

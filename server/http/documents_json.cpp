@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/documents.h"
+
+#include <nlohmann/json.hpp>
+
+#include "server/clock.h"
+
+namespace tilelight::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json time_or_null(int64_t wall_ms) { return wall_ms > 0 ? Json(rfc3339(wall_ms)) : Json(nullptr); }
+
+Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json warnings_json(const std::vector<SceneWarning>& warnings) {
+  Json out = Json::array();
+  for (const SceneWarning& w : warnings) out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
+  return out;
+}
+
+// As the scene language spells it, so that it can be sent back.
+Json camera_json(const Camera& camera) {
+  const bool is_perspective = camera.projection == Projection::perspective;
+  Json out = {{"type", is_perspective ? "perspective" : "orthographic"},
+              {"position", vector_json(camera.position)},
+              {"target", vector_json(camera.target)},
+              {"up", vector_json(camera.up)}};
+  out[is_perspective ? "fov_y_deg" : "height"] = is_perspective ? camera.fov_y_deg : camera.height;
+  return out;
+}
+
+Json progress_json(const RenderProgress& progress) {
+  return {{"fraction", progress.fraction},
+          {"spp", progress.spp},
+          {"elapsed_ms", progress.elapsed_ms},
+          {"eta_ms", progress.eta_ms >= 0.0 ? Json(progress.eta_ms) : Json(nullptr)}};
+}
+
+Json timings_json(const Timings& t) {
+  return {{"parse_ms", t.parse_ms}, {"queue_ms", t.queue_ms},   {"compile_ms", t.compile_ms},
+          {"plan_ms", t.plan_ms},   {"render_ms", t.render_ms}, {"encode_ms", t.encode_ms}};
+}
+
+Json brief_json(const JobRecord& record) {
+  const WorkStatus& status = record.status;
+  Json out = {{"id", record.id},
+              {"state", job_state_name(status.state)},
+              {"revision", status.revision},
+              {"scene", record.scene_id},
+              {"priority", priority_name(record.priority)},
+              {"format", image_format_name(record.format)},
+              {"created_at", time_or_null(status.created_ms)},
+              {"started_at", time_or_null(status.started_ms)},
+              {"finished_at", time_or_null(status.finished_ms)},
+              {"progress", progress_json(status.progress)}};
+  const bool has_image = status.state == JobState::done && !record.result_expired;
+  out["image_url"] = has_image ? Json("/v1/renders/" + record.id + "/image") : Json(nullptr);
+  if (!status.error.empty()) out["error"] = {{"detail", status.error}};
+  return out;
+}
+
+}  // namespace
+
+std::string job_json(const JobRecord& record) {
+  const WorkStatus& status = record.status;
+  Json out = brief_json(record);
+  out["timings"] = timings_json(status.timings);
+  out["warnings"] = warnings_json(record.warnings);
+  out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
+  const bool has_report = status.plan && !status.report.points.empty();
+  out["report"] = has_report ? Json::parse(report_json(status.report, *status.plan)) : Json(nullptr);
+  return text_of(out);
+}
+
+std::string jobs_json(const std::vector<JobRecord>& records) {
+  Json list = Json::array();
+  for (const JobRecord& record : records) list.push_back(brief_json(record));
+  return text_of({{"renders", std::move(list)}});
+}
+
+std::string report_csv(const RenderReport& report) {
+  std::string out =
+      "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,truncation_bound,nonfinite\n";
+  for (const ReportPoint& point : report.points) {
+    // JSON's numbers are also CSV's: the shortest text that reads back to the same value.
+    const Json row = {point.pass,        point.spp,           point.elapsed_ms,     point.cpu_ms,           point.rays.primary,
+                      point.rays.shadow, point.rays.reflected, point.rays.refracted, point.truncation_bound, point.nonfinite};
+    const std::string text = row.dump();
+    out += text.substr(1, text.size() - 2) + "\n";
+  }
+  return out;
+}
+
+std::string scene_document(std::string_view id, const std::vector<SceneWarning>& warnings) {
+  return text_of({{"id", id}, {"warnings", warnings_json(warnings)}});
+}
+
+std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan) {
+  return text_of({{"scene", scene_id},
+                  {"warnings", warnings_json(warnings)},
+                  {"plan", Json::parse(plan_json(plan.plan))},
+                  {"camera", camera_json(plan.camera)}});
+}
+
+std::string session_document(std::string_view id, std::string_view scene_id, const std::vector<SceneWarning>& warnings,
+                             const ViewPlan& plan) {
+  const ImageSpec& image = plan.view.image;
+  return text_of({{"id", id},
+                  {"scene", scene_id},
+                  {"camera", camera_json(plan.camera)},
+                  {"image", {{"width", image.width}, {"height", image.height}, {"exposure", image.exposure}}},
+                  {"view_seq", 0},
+                  {"bounds", {{"min", vector_json(plan.plan.bounds_min)}, {"max", vector_json(plan.plan.bounds_max)}}},
+                  {"plan", Json::parse(plan_json(plan.plan))},
+                  {"warnings", warnings_json(warnings)}});
+}
+
+std::string limits_document(const Config& config) {
+  Json out = Json::parse(limits_json(config.limits));
+  out["server"] = {{"max_queue", config.max_queue},
+                   {"max_sessions", config.max_sessions},
+                   {"max_results", config.max_results},
+                   {"max_wait_s", 60}};
+  return text_of(out);
+}
+
+std::string version_document(int threads) {
+  return text_of({{"name", "tilelightd"}, {"version", TILELIGHT_VERSION}, {"api", 1}, {"threads", threads}});
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/front.h"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+
+#include "server/clock.h"
+#include "server/http/listener.h"
+
+namespace tilelight::server {
+namespace {
+
+constexpr uint64_t kListenerId = 0, kWakeId = 1;
+constexpr int kTickMs = 250;                 // how often deadlines are looked at
+constexpr size_t kReadBytes = 64 << 10;      // at a time, so that one fast sender does not hold the loop
+constexpr double kLingerMs = 2'000.0;        // for a refused client to read its answer before the reset
+constexpr double kBodyBytesPerMs = 64.0;     // the slowest upload that is waited for, beside head_timeout_ms
+
+double now_ms() { return SystemClock().mono_ms(); }
+
+}  // namespace
+
+Front::Front(FrontOptions options, Serve serve, Refuse refuse)
+    : options_(std::move(options)), serve_(std::move(serve)), refuse_(std::move(refuse)) {}
+
+Result<std::unique_ptr<Front>> Front::bind(FrontOptions options, Serve serve, Refuse refuse) {
+  auto listener = listen_on(options.host, options.port);
+  if (!listener) return ::tl::unexpected(listener.error());
+  std::unique_ptr<Front> front(new Front(std::move(options), std::move(serve), std::move(refuse)));
+  front->listener_ = listener->fd;
+  front->port_ = listener->port;
+  front->epoll_ = epoll_create1(EPOLL_CLOEXEC);
+  front->wake_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (front->epoll_ < 0 || front->wake_ < 0) return fail("bind", "no descriptors left for the socket thread");
+  for (const auto& [fd, id] : {std::pair{front->listener_, kListenerId}, std::pair{front->wake_, kWakeId}}) {
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = id;
+    epoll_ctl(front->epoll_, EPOLL_CTL_ADD, fd, &event);
+  }
+  return front;
+}
+
+void Front::start() {
+  for (int i = 0; i < options_.workers; ++i) workers_.emplace_back([this] { run_worker(); });
+  loop_ = std::thread([this] { run_loop(); });
+}
+
+void Front::stop(double grace_ms) {
+  stop_at_ms_.store(now_ms() + grace_ms, std::memory_order_relaxed);
+  is_stopping_.store(true, std::memory_order_release);
+  if (wake_ >= 0) eventfd_write(wake_, 1);
+  if (loop_.joinable()) loop_.join();
+  {
+    const std::lock_guard lock(mutex_);
+    workers_end_ = true;
+  }
+  has_work_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+  workers_.clear();
+  for (int* fd : {&listener_, &epoll_, &wake_}) {
+    if (*fd >= 0) ::close(*fd);
+    *fd = -1;
+  }
+}
+
+void Front::run_worker() {
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    has_work_.wait(lock, [&] { return workers_end_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const auto exchange = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    Served served = serve_(*exchange);
+    lock.lock();
+    finished_.push_back({exchange->connection, std::move(served)});
+    lock.unlock();
+    eventfd_write(wake_, 1);
+  }
+}
+
+void Front::run_loop() {
+  std::vector<epoll_event> events(256);
+  double next_check_ms = now_ms() + kTickMs;
+  for (;;) {
+    const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), kTickMs);
+    for (int i = 0; i < count; ++i) {
+      const uint64_t id = events[static_cast<size_t>(i)].data.u64;
+      if (id == kListenerId) {
+        accept_all();
+      } else if (id == kWakeId) {
+        eventfd_t ignored;
+        eventfd_read(wake_, &ignored);
+        take_finished();
+      } else {
+        handle_event(id, events[static_cast<size_t>(i)].events);
+      }
+    }
+    const double now = now_ms();
+    if (now >= next_check_ms) {
+      check_deadlines();
+      set_accepting(true);
+      next_check_ms = now + kTickMs;
+    }
+    if (is_stopping_.load(std::memory_order_acquire)) {
+      set_accepting(false);
+      if (is_drained() || now >= stop_at_ms_.load(std::memory_order_relaxed)) break;
+    }
+  }
+  while (!connections_.empty()) close_connection(connections_.begin()->first);
+}
+
+bool Front::is_drained() const {
+  for (const auto& [id, c] : connections_) {
+    if (c->phase == Phase::serving || c->phase == Phase::writing) return false;
+  }
+  return true;
+}
+
+// A listener that nobody can serve would wake the loop for ever; it comes back at the next tick.
+void Front::set_accepting(bool on) {
+  if (on == is_accepting_) return;
+  is_accepting_ = on;
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.u64 = kListenerId;
+  epoll_ctl(epoll_, on ? EPOLL_CTL_ADD : EPOLL_CTL_DEL, listener_, &event);
+}
+
+void Front::accept_all() {
+  for (;;) {
+    if (connections_.size() >= options_.max_connections && !make_room()) return set_accepting(false);
+    auto peer = accept_peer(listener_);
+    if (!peer) {
+      if (peer.error() == AcceptError::nothing_now) return;
+      if (make_room()) continue;
+      return set_accepting(false);
+    }
+    auto c = std::make_unique<Connection>();
+    c->id = next_id_++;
+    c->fd = peer->fd;
+    c->client = std::move(peer->address);
+    c->since_ms = now_ms();
+    c->deadline_ms = c->since_ms + options_.head_timeout_ms;
+    c->events = EPOLLIN | EPOLLRDHUP;
+    epoll_event event{};
+    event.events = c->events;
+    event.data.u64 = c->id;
+    epoll_ctl(epoll_, EPOLL_CTL_ADD, c->fd, &event);
+    connections_.emplace(c->id, std::move(c));
+    connection_count_.store(connections_.size(), std::memory_order_relaxed);
+  }
+}
+
+// Full: the connection that has kept us waiting longest for a request goes. False: all are being served.
+bool Front::make_room() {
+  const Connection* oldest = nullptr;
+  for (const auto& [id, c] : connections_) {
+    if (c->phase == Phase::serving || c->phase == Phase::writing) continue;
+    if (!oldest || c->since_ms < oldest->since_ms) oldest = c.get();
+  }
+  if (oldest) close_connection(oldest->id);
+  return oldest != nullptr;
+}
+
+void Front::handle_event(uint64_t id, uint32_t events) {
+  const auto found = connections_.find(id);
+  if (found == connections_.end()) return;  // closed by an event before this one
+  Connection& c = *found->second;
+  if (events & (EPOLLHUP | EPOLLERR)) return close_connection(id);
+  switch (c.phase) {
+    case Phase::reading:
+      return read_some(c);
+    case Phase::serving:
+      // The client has closed its sending side: nothing it waited for is worth more work, but an answer still goes out.
+      if (events & EPOLLRDHUP) c.exchange->gone.request_stop(), c.close_after = true, watch(c, 0);
+      return;
+    case Phase::writing:
+      return write_some(c);
+    case Phase::closing:
+      return discard(c);
+  }
+}
+
+void Front::read_some(Connection& c) {
+  const size_t before = c.in.size();
+  // A body's declared length is bounded; its memory is taken as it arrives, not as it is declared.
+  c.in.resize(before + kReadBytes);
+  const ssize_t got = recv(c.fd, c.in.data() + before, kReadBytes, 0);
+  c.in.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
+  if (got == 0) return close_connection(c.id);
+  if (got < 0) {
+    if (errno != EAGAIN && errno != EINTR) close_connection(c.id);
+    return;
+  }
+  buffered_bytes_ += got;
+  if (before == 0) c.since_ms = now_ms(), c.deadline_ms = c.since_ms + options_.head_timeout_ms;
+  advance(c);
+}
+
+void Front::advance(Connection& c) {
+  if (!c.head) {
+    auto head = scan_head(c.in, options_.limits);
+    if (!head) return refuse(c, head.error());
+    if (!*head) return;
+    c.head = std::move(**head);
+    c.has_continued = false;
+  }
+  if (c.in.size() < c.head->bytes + static_cast<size_t>(c.head->body_bytes)) return await_body(c);
+  hand_over(c);
+}
+
+void Front::await_body(Connection& c) {
+  if (buffered_bytes_ > options_.max_buffered_bytes) {
+    return refuse(c, Problem{503, "memory", "too many large bodies are arriving at once", {}, {{"Retry-After", "1"}}});
+  }
+  if (c.has_continued) return;
+  c.has_continued = true;
+  c.deadline_ms = now_ms() + options_.head_timeout_ms + static_cast<double>(c.head->body_bytes) / kBodyBytesPerMs;
+  constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  if (c.head->expects_continue) send(c.fd, kContinue.data(), kContinue.size(), MSG_NOSIGNAL);
+}
+
+void Front::hand_over(Connection& c) {
+  auto exchange = std::make_shared<Exchange>();
+  const size_t body_bytes = static_cast<size_t>(c.head->body_bytes), end = c.head->bytes + body_bytes;
+  exchange->connection = c.id;
+  exchange->client = c.client;
+  exchange->head = std::move(c.head->text);
+  exchange->body = c.in.substr(c.head->bytes, body_bytes);
+  c.in.erase(0, end);
+  if (c.in.empty()) std::string().swap(c.in);  // gives a large body's memory back
+  buffered_bytes_ -= static_cast<int64_t>(end - body_bytes);  // the body counts until it is answered
+  c.head.reset();
+  c.phase = Phase::serving;
+  c.deadline_ms = INFINITY;
+  c.exchange = exchange;
+  watch(c, EPOLLRDHUP);
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(exchange));
+  }
+  has_work_.notify_one();
+}
+
+void Front::take_finished() {
+  std::vector<Finished> finished;
+  {
+    const std::lock_guard lock(mutex_);
+    finished.swap(finished_);
+  }
+  for (Finished& done : finished) {
+    const auto found = connections_.find(done.connection);
+    if (found == connections_.end()) continue;  // the client left
+    Connection& c = *found->second;
+    buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
+    c.exchange = nullptr;
+    begin_write(c, std::move(done.served.bytes), done.served.close || c.close_after);
+  }
+}
+
+void Front::refuse(Connection& c, const Problem& problem) { begin_write(c, refuse_(problem, c.client), true); }
+
+void Front::begin_write(Connection& c, std::string bytes, bool close_after) {
+  c.phase = Phase::writing;
+  c.out = std::move(bytes);
+  c.written = 0;
+  c.close_after = close_after;
+  c.deadline_ms = now_ms() + options_.write_timeout_ms;
+  write_some(c);
+}
+
+void Front::write_some(Connection& c) {
+  while (c.written < c.out.size()) {
+    const ssize_t sent = send(c.fd, c.out.data() + c.written, c.out.size() - c.written, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0 && errno == EAGAIN) return watch(c, EPOLLOUT);
+    if (sent < 0) return close_connection(c.id);
+    c.written += static_cast<size_t>(sent);
+    c.deadline_ms = now_ms() + options_.write_timeout_ms;
+  }
+  end_write(c);
+}
+
+void Front::end_write(Connection& c) {
+  std::string().swap(c.out);
+  if (c.close_after) {
+    // Closing at once would reset the connection under what the client still sends and lose the answer.
+    shutdown(c.fd, SHUT_WR);
+    buffered_bytes_ -= static_cast<int64_t>(c.in.size());
+    std::string().swap(c.in);
+    c.phase = Phase::closing;
+    c.since_ms = now_ms();
+    c.deadline_ms = c.since_ms + kLingerMs;
+    return watch(c, EPOLLIN);
+  }
+  c.phase = Phase::reading;
+  c.since_ms = now_ms();
+  c.deadline_ms = c.since_ms + (c.in.empty() ? options_.idle_timeout_ms : options_.head_timeout_ms);
+  watch(c, EPOLLIN | EPOLLRDHUP);
+  if (!c.in.empty()) advance(c);  // the next request was sent along
+}
+
+void Front::discard(Connection& c) {
+  char ignored[16 << 10];
+  const ssize_t got = recv(c.fd, ignored, sizeof ignored, 0);
+  if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) close_connection(c.id);
+}
+
+void Front::check_deadlines() {
+  const double now = now_ms();
+  std::vector<uint64_t> late;
+  for (const auto& [id, c] : connections_) {
+    if (now >= c->deadline_ms) late.push_back(id);
+  }
+  for (const uint64_t id : late) {
+    Connection& c = *connections_.at(id);
+    if (c.phase == Phase::reading && !c.in.empty()) {
+      refuse(c, Problem{408, "timeout", "the request did not arrive in time", {}, {}});
+    } else {
+      close_connection(id);
+    }
+  }
+}
+
+void Front::watch(Connection& c, uint32_t events) {
+  if (c.events == events) return;
+  c.events = events;
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = c.id;
+  epoll_ctl(epoll_, EPOLL_CTL_MOD, c.fd, &event);
+}
+
+void Front::close_connection(uint64_t id) {
+  const auto found = connections_.find(id);
+  Connection& c = *found->second;
+  buffered_bytes_ -= static_cast<int64_t>(c.in.size());
+  if (c.exchange) {
+    buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
+    c.exchange->gone.request_stop();
+  }
+  ::close(c.fd);
+  connections_.erase(found);
+  connection_count_.store(connections_.size(), std::memory_order_relaxed);
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Front: the sockets. One thread with epoll accepts connections, reads complete requests under limits on head, body,
+// time, memory and number, and writes responses; only a complete request takes a worker. So slow clients cost memory
+// that is capped, and never a thread. Pipelined requests are answered one after the other.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "server/http/head.h"
+#include "server/http/protocol.h"
+
+namespace tilelight::server {
+
+// A complete request on its way through a worker.
+struct Exchange {
+  uint64_t connection = 0;
+  std::string head, body;
+  std::string client;     // the peer's address
+  std::stop_source gone;  // asked to stop when the client closes its connection
+};
+
+struct FrontOptions {
+  std::string host = "127.0.0.1";
+  int port = 0;  // 0: any free one
+  int workers = 8;
+  HeadLimits limits;
+  size_t max_connections = 4096;
+  int64_t max_buffered_bytes = int64_t{256} << 20;  // of bodies, all connections together
+  double head_timeout_ms = 10'000.0;  // from a request's first byte to the end of its head
+  double idle_timeout_ms = 60'000.0;  // between requests
+  double write_timeout_ms = 20'000.0; // without progress
+};
+
+class Front {
+ public:
+  // Runs a complete request; called by workers.
+  using Serve = std::function<Served(Exchange&)>;
+  // The whole response to a request refused before it was complete; called by the socket thread.
+  using Refuse = std::function<std::string(const Problem&, const std::string& client)>;
+
+  // Errors: bind (the address cannot be had). Connections queue from here on; start() serves them.
+  static Result<std::unique_ptr<Front>> bind(FrontOptions options, Serve serve, Refuse refuse);
+  ~Front() { stop(0.0); }
+
+  int port() const { return port_; }
+  void start();
+  // Accepts nothing more, gives the requests in progress grace_ms to be answered, then closes everything.
+  void stop(double grace_ms);
+  size_t connection_count() const { return connection_count_.load(std::memory_order_relaxed); }
+
+ private:
+  enum class Phase { reading, serving, writing, closing };  // closing: discards what the client still sends
+  struct Connection {
+    uint64_t id = 0;
+    int fd = -1;
+    uint32_t events = 0;  // epoll's interest
+    Phase phase = Phase::reading;
+    std::string client;
+    std::string in, out;
+    size_t written = 0;
+    std::optional<Head> head;
+    bool close_after = false, has_continued = false;
+    double since_ms = 0.0, deadline_ms = 0.0;
+    std::shared_ptr<Exchange> exchange;
+  };
+  struct Finished {
+    uint64_t connection;
+    Served served;
+  };
+
+  Front(FrontOptions options, Serve serve, Refuse refuse);
+  void run_loop();
+  void run_worker();
+  void set_accepting(bool on);
+  void accept_all();
+  void handle_event(uint64_t id, uint32_t events);
+  void read_some(Connection& c);
+  void advance(Connection& c);  // from bytes to a request
+  void await_body(Connection& c);
+  void hand_over(Connection& c);
+  void refuse(Connection& c, const Problem& problem);
+  void begin_write(Connection& c, std::string bytes, bool close_after);
+  void write_some(Connection& c);
+  void end_write(Connection& c);
+  void discard(Connection& c);
+  void take_finished();
+  void check_deadlines();
+  bool make_room();
+  void watch(Connection& c, uint32_t events);
+  void close_connection(uint64_t id);
+  bool is_drained() const;
+
+  // Constant after construction.
+  const FrontOptions options_;
+  const Serve serve_;
+  const Refuse refuse_;
+  int port_ = 0;
+  int listener_ = -1, epoll_ = -1, wake_ = -1;
+
+  // Only the socket thread's.
+  std::unordered_map<uint64_t, std::unique_ptr<Connection>> connections_;
+  uint64_t next_id_ = 16;  // smaller ones name the listener and the wake-up
+  int64_t buffered_bytes_ = 0;
+  bool is_accepting_ = true;
+
+  std::atomic<size_t> connection_count_ = 0;  // relaxed: a gauge
+  std::atomic<bool> is_stopping_ = false;     // release by stop(), acquire by the loop
+  std::atomic<double> stop_at_ms_ = 0.0;
+
+  std::mutex mutex_;  // guards the rest
+  std::condition_variable has_work_;
+  std::deque<std::shared_ptr<Exchange>> waiting_;
+  std::vector<Finished> finished_;
+  bool workers_end_ = false;
+
+  std::vector<std::thread> workers_;
+  std::thread loop_;
+};
+
+}  // namespace tilelight::server

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The handlers of all routes, by file: renders, images of renders, scenes, sessions, discovery and page, admin.
+#pragma once
+
+#include "server/http/negotiate.h"
+#include "server/http/services.h"
+
+namespace tilelight::server {
+
+// handlers_renders.cpp
+Reply post_render(Services&, const Request&);
+Reply list_renders(Services&, const Request&);
+Reply get_render(Services&, const Request&);
+Reply delete_render(Services&, const Request&);
+Reply get_render_report(Services&, const Request&);
+Reply get_render_pixel(Services&, const Request&);
+
+// handlers_images.cpp
+Reply get_render_image(Services&, const Request&);
+Reply get_scene_image(Services&, const Request&);
+
+// handlers_scenes.cpp
+Reply post_scene(Services&, const Request&);
+Reply get_scene(Services&, const Request&);
+Reply get_scene_plan(Services&, const Request&);
+Reply post_plan(Services&, const Request&);
+
+// handlers_sessions.cpp
+Reply post_session(Services&, const Request&);
+Reply put_session_view(Services&, const Request&);
+Reply get_session_frame(Services&, const Request&);
+Reply delete_session(Services&, const Request&);
+
+// handlers_page.cpp
+Reply get_limits(Services&, const Request&);
+Reply get_scene_schema(Services&, const Request&);
+Reply get_openapi(Services&, const Request&);
+Reply get_page_file(Services&, const Request&);
+bool is_page_file(std::string_view path);
+
+// handlers_admin.cpp
+Reply get_livez(Services&, const Request&);
+Reply get_readyz(Services&, const Request&);
+Reply get_metrics(Services&, const Request&);
+Reply get_version(Services&, const Request&);
+
+// Shared by handlers; answers.cpp.
+
+// How long this request waits: Prefer: wait=N within [0, 60], else the default.
+double wait_seconds(const Request& request, double default_s);
+
+// What a refused submission becomes.
+::tl::unexpected<Problem> refused(Services& services, const Error& error);
+
+// An encoded image of the render with its entity tag, timings and figures.
+Response image_response(const RenderWork& work, const EncodedImage& image, ImageFormat format);
+
+// 202 and the job that now holds the work.
+Response accepted_response(const JobRecord& record, const Request& request);
+
+// A render that ended without an image as a problem: 503 where it was cancelled, 500 where it failed.
+::tl::unexpected<Problem> ended_without_image(const WorkStatus& status);
+
+std::string server_timing(const WorkStatus& status);
+std::string render_info(int spp, std::string_view stop, const RenderReport& report);
+
+}  // namespace tilelight::server

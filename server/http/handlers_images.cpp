@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/base/hash.h"
+#include "server/http/handlers.h"
+#include "server/http/render_body.h"
+
+namespace tilelight::server {
+namespace {
+
+constexpr double kImageWaitS = 30.0;
+
+// The format in which to serve an image whose own format is given.
+::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, ImageFormat own) {
+  std::vector<std::string_view> offers = {media_type(own)};
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+    if (format != own) offers.push_back(media_type(format));
+  }
+  const auto type = best_offer(request, offers);
+  if (!type) return problem(406, "not_acceptable", "an image can be had as image/png, image/jpeg or image/x-exr");
+  return *image_format_from_media_type(*type);
+}
+
+Reply partial_image(Services& services, const RenderWork& work, ImageFormat format) {
+  const auto image = work.image();
+  if (!image) return problem(409, "not_ready", "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
+  const double exposure = work.request().view.image.exposure;
+  auto encoded =
+      services.pool.submit(work.request().priority, [&] { return encode_tagged(*image, exposure, format); }).get();
+  if (!encoded) return problem(500, "internal", "the image could not be encoded");
+  return image_response(work, **encoded, format).with("Cache-Control", "no-store");
+}
+
+// Known before rendering: the same scene, view and version give the same bytes.
+std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageFormat format) {
+  return "\"" + sha256_hex(scene->parsed.scene_id + ";" + view_fingerprint(view) + ";" +
+                           std::string(image_format_name(format)) + ";" TILELIGHT_VERSION).substr(0, 32) + "\"";
+}
+
+}  // namespace
+
+Reply get_render_image(Services& services, const Request& request) {
+  const auto record = services.jobs.find(request.args[0]);
+  if (!record) return problem(404, "no_such_render", "no render with this id is known");
+  const auto format = image_format_for(request, record->format);
+  if (!format) return ::tl::unexpected(format.error());
+  const WorkPtr work = services.jobs.work(request.args[0]);
+  if (!work) return problem(410, "expired", "the image is no longer kept; submit the render again");
+  const bool wants_partial = request.param("partial") == "1";
+  const JobState state = record->status.state;
+  if (state != JobState::done) {
+    if (wants_partial) return partial_image(services, *work, *format);
+    const std::string name(job_state_name(state));
+    return problem(409, is_final(state) ? name : "not_ready", "the render is " + name + (is_final(state) ? "" : "; ?partial=1 shows what there is"));
+  }
+  auto image = work->encoded(*format, services.pool);
+  if (!image) {
+    const bool is_expired = image.error().code == "expired";
+    return problem(is_expired ? 410 : 500, is_expired ? "expired" : "internal",
+                   is_expired ? image.error().detail : "the image could not be encoded");
+  }
+  const char* kCacheControl = "private, max-age=31536000, immutable";
+  if (has_current(request, (*image)->etag)) {
+    return empty_response(304).with("ETag", (*image)->etag).with("Vary", "Accept").with("Cache-Control", kCacheControl);
+  }
+  return image_response(*work, **image, *format).with("Cache-Control", kCacheControl);
+}
+
+Reply get_scene_image(Services& services, const Request& request) {
+  const ScenePtr scene = services.scenes.find(request.args[0]);
+  if (!scene) return problem(404, "no_such_scene", "no scene with this id is stored (any more)");
+  auto view = read_view_query(request, scene->parsed.view, services.config.limits);
+  if (!view) return ::tl::unexpected(view.error());
+  if (view->render.time_ms) {
+    return problem(422, "time_ms", "this scene stops by time, so its picture has no name to be cached under; ask POST "
+                                   "/v1/renders for it");
+  }
+  const auto format = image_format_for(request, ImageFormat::png);
+  if (!format) return ::tl::unexpected(format.error());
+  const std::string etag = scene_image_etag(scene, *view, *format);
+  const auto label = [&](Response& response) {
+    response.with("ETag", etag).with("Cache-Control", "private, max-age=31536000").with("Vary", "Accept");
+  };
+  if (has_current(request, etag)) {
+    Response response = empty_response(304);
+    label(response);
+    return response;
+  }
+  auto slot = services.waits.take();
+  if (!slot) return ::tl::unexpected(slot.error());
+  auto lease = services.queue.submit({scene, std::move(*view), *format, Priority::normal, scene->parsed.warnings, 0.0});
+  if (!lease) return refused(services, lease.error());
+  RenderWork& work = *lease->work();
+  if (!work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0))) {
+    if (request.gone.stop_requested()) return problem(408, "client_gone", "the client closed its connection");
+    return accepted_response(services.jobs.keep(std::move(*lease), request.client, *format), request);
+  }
+  if (work.state() != JobState::done) return ended_without_image(work.status());
+  auto image = work.encoded(*format, services.pool);
+  if (!image) return problem(500, "internal", "the image could not be encoded");
+  const WorkStatus status = work.status();
+  Response response{200, {}, std::string(media_type(*format)), (*image)->bytes};
+  label(response);
+  response.with("Server-Timing", server_timing(status))
+      .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));
+  return response;
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "renderer/base/hash.h"
+#include "server/http/handlers.h"
+#include "server/http/page_files.h"
+#include "server/http/documents.h"
+
+namespace tilelight::server {
+namespace {
+
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'none'";
+
+const EmbeddedFile* find_page_file(std::string_view path) {
+  if (path == "/") path = "/index.html";
+  const auto file = std::find_if(kPageFiles.begin(), kPageFiles.end(), [&](const EmbeddedFile& f) { return f.path == path; });
+  return file == kPageFiles.end() ? nullptr : &*file;
+}
+
+Response tagged(const Request& request, std::string_view etag, std::string_view media_type, std::string_view bytes) {
+  Response response{200, {}, std::string(media_type), ""};
+  if (has_current(request, etag)) {
+    response = empty_response(304);
+  } else {
+    response.body = bytes;
+  }
+  return response.with("ETag", std::string(etag)).with("Cache-Control", "no-cache");
+}
+
+Response tagged_json(const Request& request, const std::string& json) {
+  return tagged(request, "\"" + sha256_hex(json).substr(0, 32) + "\"", "application/json", json);
+}
+
+}  // namespace
+
+bool is_page_file(std::string_view path) { return find_page_file(path) != nullptr; }
+
+Reply get_page_file(Services&, const Request& request) {
+  const EmbeddedFile* file = find_page_file(request.path);
+  if (!file) return problem(404, "no_page", "this program was built without the page");
+  return tagged(request, file->etag, file->media_type, file->bytes)
+      .with("Content-Security-Policy", kContentSecurityPolicy)
+      .with("Referrer-Policy", "no-referrer")
+      .with("Cross-Origin-Opener-Policy", "same-origin")
+      .with("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+Reply get_openapi(Services&, const Request& request) {
+  return tagged(request, kOpenApiFile.etag, kOpenApiFile.media_type, kOpenApiFile.bytes);
+}
+
+Reply get_limits(Services& services, const Request& request) {
+  return tagged_json(request, limits_document(services.config));
+}
+
+Reply get_scene_schema(Services& services, const Request& request) {
+  Response response = tagged_json(request, scene_schema_json(services.config.limits));
+  if (!response.content_type.empty()) response.content_type = "application/schema+json";
+  return response;
+}
+
+}  // namespace tilelight::server

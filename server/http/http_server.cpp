@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/http_server.h"
+
+#include "server/random_id.h"
+
+namespace tilelight::server {
+namespace {
+
+Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) {
+  return serve_head(exchange.head, false, [&](Request&& request) {
+    request.body = exchange.body;
+    request.client = exchange.client;
+    request.id = random_hex(8);
+    request.gone = exchange.gone.get_token();
+    return dispatch(services, routes, std::move(request));
+  });
+}
+
+std::string refuse(Services& services, const Problem& problem, const std::string& client) {
+  const std::string id = random_hex(8);
+  services.metrics.add("tilelight_http_refused_total", "status=\"" + std::to_string(problem.status) + "\"");
+  services.log.write(LogLevel::info, "refused",
+                     {{"id", id}, {"client", client}, {"status", int64_t{problem.status}}, {"code", problem.code}});
+  return closing_response(problem_response(problem, id).with("Request-Id", id));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HttpServer>> HttpServer::bind(FrontOptions options, const std::vector<Route>& routes,
+                                                     Services& services) {
+  auto front = Front::bind(
+      std::move(options), [&](Exchange& exchange) { return serve(services, routes, exchange); },
+      [&](const Problem& problem, const std::string& client) { return refuse(services, problem, client); });
+  if (!front) return ::tl::unexpected(front.error());
+  auto server = std::make_unique<HttpServer>();
+  server->front_ = std::move(*front);
+  return server;
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/render_body.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "server/http/json_members.h"
+
+namespace tilelight::server {
+namespace {
+
+// Under it, parsing takes under 2 ms, less than a busy pool would keep it waiting.
+constexpr size_t kParseHereBytes = 64 << 10;
+
+constexpr std::string_view kViewKeys[] = {"camera", "image", "render"};
+
+std::string join(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+// What is wrong with the members around a scene, collected.
+class MemberErrors {
+ public:
+  void add(std::string_view key, std::string code, std::string detail, std::vector<std::string> allowed = {}) {
+    errors_.errors.push_back({"/" + std::string(key), std::move(code), std::move(detail), std::move(allowed), "", 0, 0});
+  }
+  // Every key is known and none comes twice.
+  void check_keys(const std::vector<JsonMember>& members, const std::vector<std::string>& known) {
+    for (size_t i = 0; i < members.size(); ++i) {
+      const std::string key(members[i].key);
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        add(key, "unknown_key", "unknown key '" + key + "'; here are allowed: " + join(known), known);
+      }
+      const bool is_repeated = std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(i),
+                                           [&](const JsonMember& m) { return m.key == key; });
+      if (is_repeated) add(key, "duplicate_key", "the key '" + key + "' comes twice");
+    }
+  }
+  bool empty() const { return errors_.errors.empty(); }
+  ::tl::unexpected<Problem> problem() const { return scene_problem(errors_); }
+
+ private:
+  SceneErrors errors_;
+};
+
+// The word of a member that names one of a few things.
+template <class T, class Find>
+std::optional<T> read_word(const std::vector<JsonMember>& members, std::string_view key, Find find,
+                           const std::vector<std::string>& allowed, MemberErrors& errors) {
+  const JsonMember* member = find_member(members, key);
+  if (!member) return std::nullopt;
+  const auto word = plain_string(member->value);
+  std::optional<T> value = word ? find(*word) : std::nullopt;
+  if (!value) {
+    errors.add(key, "unknown_name", "found " + std::string(member->value.substr(0, 40)) + "; allowed: " + join(allowed),
+               allowed);
+  }
+  return value;
+}
+
+std::optional<Priority> find_batch_or_normal(std::string_view name) {
+  if (name == "normal") return Priority::normal;
+  if (name == "batch") return Priority::batch;
+  return std::nullopt;
+}
+
+::tl::expected<ScenePtr, Problem> parse_whole(std::string_view text, const Limits& limits, std::string_view prefix) {
+  auto parsed = parse_scene(text, limits);
+  if (!parsed) {
+    SceneErrors errors = std::move(parsed.error());
+    for (SceneError& error : errors.errors) error.pointer.insert(0, prefix);
+    return scene_problem(errors);
+  }
+  auto scene = std::make_shared<StoredScene>();
+  scene->parsed = std::move(*parsed);
+  scene->text = text;
+  return scene;
+}
+
+// The scene that the member names by id or holds.
+::tl::expected<ScenePtr, Problem> read_scene_member(Services& services, std::string_view body, const JsonMember& member) {
+  if (member.value.front() == '{') {
+    auto scene = parse_whole(keep_value(body, member), services.config.limits, "/scene");
+    return scene;
+  }
+  MemberErrors errors;
+  const auto id = plain_string(member.value);
+  if (!id) {
+    errors.add("scene", "wrong_type", "'scene' must be the id of a stored scene or a scene object");
+    return errors.problem();
+  }
+  ScenePtr scene = services.scenes.find(std::string(*id));
+  if (!scene) {
+    errors.add("scene", "unknown_scene", "no scene '" + std::string(id->substr(0, 80)) +
+                                             "' is stored (any more); store it with POST /v1/scenes or send it along");
+    return errors.problem();
+  }
+  return scene;
+}
+
+::tl::expected<RenderBody, Problem> parse_body(Services& services, std::string_view body,
+                                               std::initializer_list<std::string_view> wishes) {
+  const Limits& limits = services.config.limits;
+  RenderBody out;
+  const auto members = scan_members(body);
+  const JsonMember* scene_member = members ? find_member(*members, "scene") : nullptr;
+  if (!scene_member || find_member(*members, "objects")) {
+    auto scene = parse_whole(body, limits, "");
+    if (!scene) return ::tl::unexpected(scene.error());
+    out.scene = std::move(*scene);
+    out.view = out.scene->parsed.view;
+    out.warnings = out.scene->parsed.warnings;
+    return out;
+  }
+  std::vector<std::string> known = {"scene", "camera", "image", "render"};
+  for (const std::string_view wish : wishes) known.emplace_back(wish);
+  MemberErrors errors;
+  errors.check_keys(*members, known);
+  out.format = read_word<ImageFormat>(*members, "format", find_image_format, {"png", "jpeg", "exr"}, errors);
+  out.priority = read_word<Priority>(*members, "priority", find_batch_or_normal, {"normal", "batch"}, errors);
+  if (!errors.empty()) return errors.problem();
+  auto scene = read_scene_member(services, body, *scene_member);
+  if (!scene) return ::tl::unexpected(scene.error());
+  out.scene = std::move(*scene);
+  out.warnings = out.scene->parsed.warnings;
+  auto view = parse_view(keep_members(body, *members, {std::begin(kViewKeys), std::end(kViewKeys)}),
+                         out.scene->parsed.view, limits);
+  if (!view) return scene_problem(view.error());
+  out.view = std::move(*view);
+  return out;
+}
+
+// A number list of a query as a JSON array, or a single number; nothing if it holds anything else, so that no text of a
+// query can pose as JSON.
+std::optional<std::string> query_numbers(std::string_view text, bool is_vector) {
+  const bool clean = !text.empty() && text.find_first_not_of("0123456789+-.eE,") == std::string_view::npos;
+  if (!clean || (!is_vector && text.find(',') != std::string_view::npos)) return std::nullopt;
+  return is_vector ? "[" + std::string(text) + "]" : std::string(text);
+}
+
+// Runs parse() here or, for a large body, on the pool.
+template <class Parse>
+auto parse_where_it_fits(Services& services, std::string_view body, Parse parse) {
+  return body.size() <= kParseHereBytes ? parse() : services.pool.submit(Priority::normal, parse).get();
+}
+
+}  // namespace
+
+::tl::expected<ScenePtr, Problem> read_scene(Services& services, std::string_view body) {
+  return parse_where_it_fits(services, body, [&] { return parse_whole(body, services.config.limits, ""); });
+}
+
+::tl::expected<RenderBody, Problem> read_render_body(Services& services, std::string_view body,
+                                                     std::initializer_list<std::string_view> wishes) {
+  const auto start = Steady::now();
+  auto out = parse_where_it_fits(services, body, [&] { return parse_body(services, body, wishes); });
+  if (out) out->parse_ms = ms_since(start);
+  return out;
+}
+
+::tl::expected<ViewBody, Problem> read_view_body(std::string_view body, const View& base, const Limits& limits) {
+  const auto members = scan_members(body);
+  if (!members) {  // the parser of views says where it is broken
+    auto broken = parse_view(body, base, limits);
+    return broken ? problem(400, "not_json", "the body must be one JSON object") : scene_problem(broken.error());
+  }
+  MemberErrors errors;
+  errors.check_keys(*members, {"seq", "camera", "image", "render", "moving"});
+  ViewBody out;
+  const JsonMember* seq = find_member(*members, "seq");
+  const std::string_view digits = seq ? seq->value : std::string_view();
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.seq);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || out.seq < 1) {
+    errors.add("seq", seq ? "wrong_type" : "missing_key", "'seq' must be a whole number from 1, larger with each view");
+  }
+  if (const JsonMember* moving = find_member(*members, "moving")) {
+    out.is_moving = moving->value == "true";
+    if (!out.is_moving && moving->value != "false") errors.add("moving", "wrong_type", "'moving' must be true or false");
+  }
+  if (!errors.empty()) return errors.problem();
+  auto view = parse_view(keep_members(body, *members, {std::begin(kViewKeys), std::end(kViewKeys)}), base, limits);
+  if (!view) return scene_problem(view.error());
+  out.view = std::move(*view);
+  return out;
+}
+
+::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits) {
+  struct Param {
+    const char *name, *group;
+    bool is_vector;
+  };
+  static constexpr Param kParams[] = {{"position", "camera", true},   {"target", "camera", true}, {"up", "camera", true},
+                                      {"fov_y_deg", "camera", false}, {"width", "image", false},  {"height", "image", false},
+                                      {"exposure", "image", false},   {"samples", "render", false}};
+  std::map<std::string, std::string> groups;
+  std::vector<std::string> names;
+  for (const Param& param : kParams) names.emplace_back(param.name);
+  MemberErrors errors;
+  for (const auto& [name, text] : request.query) {
+    const auto param = std::find_if(std::begin(kParams), std::end(kParams), [&](const Param& p) { return name == p.name; });
+    if (param == std::end(kParams) || request.query.count(name) > 1) {
+      errors.add(name, param == std::end(kParams) ? "unknown_key" : "duplicate_key",
+                 "query parameters, each at most once: " + join(names), names);
+      continue;
+    }
+    const auto value = query_numbers(text, param->is_vector);
+    if (!value) {
+      errors.add(std::string(param->group) + "/" + name, "wrong_type",
+                 param->is_vector ? "three numbers with commas, like 4,5,9" : "a number");
+      continue;
+    }
+    std::string& group = groups[param->group];
+    group += (group.empty() ? "\"" : ", \"") + name + "\": " + *value;
+  }
+  if (!errors.empty()) return errors.problem();
+  std::string text;
+  for (const auto& [group, body] : groups) text += (text.empty() ? "\"" : ", \"") + group + "\": {" + body + "}";
+  auto view = parse_view("{" + text + "}", base, limits);
+  if (!view) {
+    // The text was made here: its lines and columns mean nothing to the client. A number that is no JSON is a 422.
+    for (SceneError& error : view.error().errors) error.line = error.column = 0;
+    if (view.error().kind == SceneErrors::Kind::not_json) view.error().kind = SceneErrors::Kind::invalid;
+    return scene_problem(view.error());
+  }
+  return std::move(*view);
+}
+
+}  // namespace tilelight::server

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bodies of requests: a scene, or a scene with a view and wishes around it.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "server/http/services.h"
+
+namespace tilelight::server {
+
+// A body is a scene if it has "objects", else {"scene": id or scene, "camera"?, "image"?, "render"?, ...}; the view is
+// merged key by key over the scene's own.
+struct RenderBody {
+  ScenePtr scene;
+  View view;
+  std::vector<SceneWarning> warnings;
+  std::optional<ImageFormat> format;
+  std::optional<Priority> priority;
+  double parse_ms = 0.0;
+};
+// `wishes`: which of "format" and "priority" the route knows. Large bodies are parsed on the pool.
+::tl::expected<RenderBody, Problem> read_render_body(Services& services, std::string_view body,
+                                                     std::initializer_list<std::string_view> wishes);
+
+// A scene document and nothing around it.
+::tl::expected<ScenePtr, Problem> read_scene(Services& services, std::string_view body);
+
+// {"seq", "camera"?, "image"?, "render"?, "moving"?}
+struct ViewBody {
+  int64_t seq = 0;
+  bool is_moving = false;
+  View view;
+};
+::tl::expected<ViewBody, Problem> read_view_body(std::string_view body, const View& base, const Limits& limits);
+
+// A view from the query of a picture's address: position=4,5,9&target=..&up=..&fov_y_deg=..&width=..&height=..&samples=..
+// &exposure=... Errors point into the view that the query spells: /camera/position.
+::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits);
+
+}  // namespace tilelight::server

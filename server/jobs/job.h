@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The life of a render in the server.
+//
+//              submit                 a slot is free                 last pass, encoded
+//   (request) --------> queued ------------------------> running -----------------------> done
+//                         |                              |     |
+//                         | last holder leaves,          |     | a bug, or the image cannot be encoded
+//                         | or the server stops          |     +-------------------------> failed
+//                         +----------> cancelled <-------+
+//
+// A RenderWork is the work itself; identical requests in flight share one. Its holders are waiting requests and jobs.
+// A job is the record a client can come back to: made only when an answer was 202, forgotten by DELETE. The result of
+// a done job is kept until the results' cap on count or bytes drops the oldest; the record then says so (410).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/renderer.h"
+#include "server/scenes/scene_store.h"
+
+namespace tilelight::server {
+
+enum class JobState { queued = 0, running = 1, done = 2, failed = 3, cancelled = 4 };  // stored: never renumber
+
+std::string_view job_state_name(JobState state);
+std::optional<JobState> find_job_state(std::string_view name);
+inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
+
+std::string_view priority_name(Priority priority);
+std::string_view image_format_name(ImageFormat format);  // "png", "jpeg", "exr"
+std::optional<ImageFormat> find_image_format(std::string_view name);
+
+// What to render.
+struct RenderRequest {
+  ScenePtr scene;
+  View view;
+  ImageFormat format = ImageFormat::png;  // in which the result is encoded before it is called done
+  Priority priority = Priority::normal;
+  std::vector<SceneWarning> warnings;     // of the scene and of the view
+  double parse_ms = 0.0;
+};
+
+// All values of a view as text, exact to the bit: two views with the same text give the same image.
+std::string view_fingerprint(const View& view);
+
+// What identical renders share: SHA-256 of scene and view.
+std::string render_key(const RenderRequest& request);
+
+struct Timings {
+  double parse_ms = 0.0, queue_ms = 0.0, compile_ms = 0.0, plan_ms = 0.0, render_ms = 0.0, encode_ms = 0.0;
+};
+
+// Where a render stands.
+struct WorkStatus {
+  JobState state = JobState::queued;
+  int64_t revision = 1;  // grows with every change of state and every pass
+  RenderProgress progress;
+  RenderReport report;
+  std::optional<Plan> plan;
+  Timings timings;
+  int64_t created_ms = 0, started_ms = 0, finished_ms = 0;  // wall clock; 0: not yet
+  std::string error;                                        // state failed: for the client, no inside information
+};
+
+// What a job store keeps of a job.
+struct JobRecord {
+  std::string id;
+  uint64_t sequence = 0;  // order of submission; given by the store
+  std::string client;     // whose job it is
+  std::string scene_id;
+  double exposure = 0.0;
+  Priority priority = Priority::normal;
+  ImageFormat format = ImageFormat::png;
+  std::vector<SceneWarning> warnings;
+  WorkStatus status;
+  bool result_expired = false;
+};
+
+// An encoded image and its strong entity tag.
+struct EncodedImage {
+  std::string bytes;
+  std::string etag;  // quoted
+};
+using EncodedPtr = std::shared_ptr<const EncodedImage>;
+
+}  // namespace tilelight::server

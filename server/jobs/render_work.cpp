@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/render_work.h"
+
+#include "renderer/base/hash.h"
+
+namespace tilelight::server {
+
+RenderWork::RenderWork(RenderRequest request, std::string key, int64_t created_ms)
+    : request_(std::move(request)), key_(std::move(key)) {
+  status_.created_ms = created_ms;
+  status_.timings.parse_ms = request_.parse_ms;
+}
+
+WorkStatus RenderWork::status() const {
+  std::unique_lock lock(mutex_);
+  WorkStatus status = status_;
+  const auto render = render_;
+  lock.unlock();
+  if (render) {
+    status.progress = render->progress();
+    status.report = render->report();
+  }
+  return status;
+}
+
+JobState RenderWork::state() const {
+  const std::lock_guard lock(mutex_);
+  return status_.state;
+}
+
+void RenderWork::wait_change(int64_t seen, std::stop_token gone, Steady::time_point until) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_until(lock, gone, until, [&] { return status_.revision != seen || is_final(status_.state); });
+}
+
+bool RenderWork::wait_end(std::stop_token gone, Steady::time_point until) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_until(lock, gone, until, [&] { return is_final(status_.state); });
+}
+
+std::shared_ptr<const Image> RenderWork::image() const {
+  std::unique_lock lock(mutex_);
+  if (image_ || !render_) return image_;
+  const auto render = render_;
+  lock.unlock();
+  return render->image();
+}
+
+std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> RenderWork::claim(
+    ImageFormat format) {
+  const std::lock_guard lock(mutex_);
+  const auto known = encodings_.find(format);
+  if (known != encodings_.end()) return {known->second, nullptr};
+  auto promise = std::make_shared<std::promise<Result<EncodedPtr>>>();
+  Encoding future = promise->get_future().share();
+  // Without the linear image there is nothing to claim, and the answer is no promise for later.
+  if (image_) encodings_[format] = future;
+  return {future, promise};
+}
+
+Result<EncodedPtr> RenderWork::encode(ImageFormat format) {
+  std::unique_lock lock(mutex_);
+  const auto image = image_;
+  lock.unlock();
+  if (!image) return fail("expired", "the linear image is no longer kept; only formats encoded before are");
+  const auto start = Steady::now();
+  auto encoded = encode_tagged(*image, request_.view.image.exposure, format);
+  lock.lock();
+  status_.timings.encode_ms += ms_since(start);
+  if (encoded) encoded_bytes_ += static_cast<int64_t>((*encoded)->bytes.size());
+  return encoded;
+}
+
+Result<EncodedPtr> RenderWork::encoded(ImageFormat format, TilePool& pool) {
+  auto [future, mine] = claim(format);
+  if (mine) {
+    pool.post(request_.priority, [self = shared_from_this(), format, promise = mine] {
+      try {
+        promise->set_value(self->encode(format));
+      } catch (...) {
+        promise->set_exception(std::current_exception());
+      }
+    });
+  }
+  return future.get();
+}
+
+Result<EncodedPtr> RenderWork::encode_here(ImageFormat format) {
+  auto [future, mine] = claim(format);
+  if (mine) mine->set_value(encode(format));
+  return future.get();
+}
+
+void RenderWork::drop_image() {
+  const std::lock_guard lock(mutex_);
+  image_ = nullptr;
+}
+
+int64_t RenderWork::result_bytes() const {
+  const std::lock_guard lock(mutex_);
+  const auto image_bytes = image_ ? static_cast<int64_t>(image_->rgb.size() * sizeof(float)) : 0;
+  return image_bytes + encoded_bytes_ + 2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
+}
+
+void RenderWork::watch(std::function<void()> fn) {
+  const std::lock_guard lock(mutex_);
+  watchers_.push_back(std::move(fn));
+}
+
+void RenderWork::notify_watchers() {
+  std::unique_lock lock(mutex_);
+  const auto watchers = watchers_;
+  lock.unlock();
+  for (const auto& watcher : watchers) watcher();
+}
+
+void RenderWork::bump() {
+  const std::lock_guard lock(mutex_);
+  ++status_.revision;
+  changed_.notify_all();
+}
+
+void RenderWork::set_running(int64_t started_ms, double queue_ms) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = JobState::running;
+    status_.started_ms = started_ms;
+    status_.timings.queue_ms = queue_ms;
+  }
+  bump();
+  notify_watchers();
+}
+
+void RenderWork::set_planned(const Plan& plan, double compile_ms, double plan_ms) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.plan = plan;
+    status_.timings.compile_ms = compile_ms;
+    status_.timings.plan_ms = plan_ms;
+  }
+  bump();
+}
+
+void RenderWork::set_render(std::shared_ptr<Render> render) {
+  const std::lock_guard lock(mutex_);
+  render_ = std::move(render);
+}
+
+std::shared_ptr<Render> RenderWork::render() const {
+  const std::lock_guard lock(mutex_);
+  return render_;
+}
+
+void RenderWork::take_result() {
+  const auto render = this->render();
+  if (!render) return;
+  auto image = render->image();
+  auto progress = render->progress();
+  auto report = render->report();
+  const std::lock_guard lock(mutex_);
+  image_ = std::move(image);
+  status_.timings.render_ms = progress.elapsed_ms;
+  status_.progress = std::move(progress);
+  status_.report = std::move(report);
+  render_ = nullptr;
+}
+
+void RenderWork::set_ended(JobState state, std::string error, int64_t finished_ms) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = state;
+    status_.error = std::move(error);
+    status_.finished_ms = finished_ms;
+    status_.progress.eta_ms = state == JobState::done ? 0.0 : -1.0;
+    if (state != JobState::done) image_ = nullptr;
+  }
+  bump();
+  notify_watchers();
+}
+
+void RenderWork::request_cancel() {
+  cancel_requested_.store(true, std::memory_order_release);
+  if (const auto render = this->render()) render->cancel();
+}
+
+Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format) {
+  auto bytes = encode_image(image, exposure_stops, format);
+  if (!bytes) return ::tl::unexpected(bytes.error());
+  auto encoded = std::make_shared<EncodedImage>();
+  encoded->etag = "\"" + sha256_hex(*bytes).substr(0, 32) + "\"";
+  encoded->bytes = std::move(*bytes);
+  return EncodedPtr(std::move(encoded));
+}
+
+}  // namespace tilelight::server

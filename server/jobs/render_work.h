@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// RenderWork: one render that requests and jobs share. JobQueue moves it from state to state; others look, wait and
+// fetch the image. Any thread may call any method; no lock is held while rendering or encoding.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "server/clock.h"
+#include "server/jobs/job.h"
+#include "server/scenes/compiled_cache.h"
+
+namespace tilelight::server {
+
+class RenderWork : public std::enable_shared_from_this<RenderWork> {
+ public:
+  RenderWork(RenderRequest request, std::string key, int64_t created_ms);
+
+  const RenderRequest& request() const { return request_; }
+  const std::string& key() const { return key_; }
+  WorkStatus status() const;
+  JobState state() const;
+
+  // Waits until the revision is not `seen`, the render has ended, the client is gone or the time is over.
+  void wait_change(int64_t seen, std::stop_token gone, Steady::time_point until) const;
+  // True if the render has ended.
+  bool wait_end(std::stop_token gone, Steady::time_point until) const;
+
+  // The linear image of the whole passes so far. Null before the first pass and after drop_image().
+  std::shared_ptr<const Image> image() const;
+
+  // The image of an ended render in a format, encoded once on the pool. REQUIRES: not a pool thread.
+  // Errors: expired (the linear image was dropped), or the encoder's.
+  Result<EncodedPtr> encoded(ImageFormat format, TilePool& pool);
+  // The same on this thread, which is one of the pool.
+  Result<EncodedPtr> encode_here(ImageFormat format);
+
+  // Forgets the linear image; formats encoded so far stay.
+  void drop_image();
+  int64_t result_bytes() const;
+
+  // Calls fn after every change of state, without a lock. REQUIRES: quick.
+  void watch(std::function<void()> fn);
+
+  // What follows is JobQueue's.
+  void set_running(int64_t started_ms, double queue_ms);
+  void set_planned(const Plan& plan, double compile_ms, double plan_ms);
+  void set_render(std::shared_ptr<Render> render);
+  std::shared_ptr<Render> render() const;
+  void bump();  // a pass is done
+  // Takes image and report from the render and lets it go.
+  void take_result();
+  void set_ended(JobState state, std::string error, int64_t finished_ms);
+  void request_cancel();
+  bool is_cancel_requested() const { return cancel_requested_.load(std::memory_order_acquire); }
+  bool begin_conclusion() { return !concluding_.exchange(true, std::memory_order_acq_rel); }  // true once
+
+ private:
+  using Encoding = std::shared_future<Result<EncodedPtr>>;
+  // The future of the format's encoding, and the promise if it falls to the caller to keep it.
+  std::pair<Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> claim(ImageFormat format);
+  Result<EncodedPtr> encode(ImageFormat format);
+  void notify_watchers();
+
+  // Constant after construction.
+  const RenderRequest request_;
+  const std::string key_;
+
+  std::atomic<bool> cancel_requested_ = false;  // release/acquire: set before the render is looked up to be cancelled
+  std::atomic<bool> concluding_ = false;
+
+  mutable std::mutex mutex_;  // guards the rest
+  mutable std::condition_variable_any changed_;
+  WorkStatus status_;  // progress and report are filled in from render_ while there is one
+  std::shared_ptr<Render> render_;
+  std::shared_ptr<const Image> image_;  // after the end
+  std::map<ImageFormat, Encoding> encodings_;
+  int64_t encoded_bytes_ = 0;
+  std::vector<std::function<void()>> watchers_;
+};
+
+using WorkPtr = std::shared_ptr<RenderWork>;
+
+// Encodes and tags an image.
+Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format);
+
+}  // namespace tilelight::server

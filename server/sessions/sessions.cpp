@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/sessions/sessions.h"
+
+#include <vector>
+
+#include "server/random_id.h"
+
+namespace tilelight::server {
+
+Result<SessionPtr> Sessions::open(ScenePtr scene, CompiledPtr compiled, View view) {
+  close_idle();
+  auto session = std::make_shared<Session>(random_id(), pool_, std::move(scene), std::move(compiled), view);
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_stopping_) return fail("stopping", "the server is stopping");
+    if (static_cast<int>(by_id_.size()) >= max_sessions_) {
+      return fail("too_many_sessions", std::to_string(by_id_.size()) + " sessions are open, the server's limit");
+    }
+    by_id_[session->id()] = {session, clock_.mono_ms()};
+  }
+  session->set_view(0, std::move(view), false);
+  return session;
+}
+
+SessionPtr Sessions::find(const std::string& id) {
+  close_idle();
+  const std::lock_guard lock(mutex_);
+  const auto known = by_id_.find(id);
+  if (known == by_id_.end()) return nullptr;
+  known->second.used_ms = clock_.mono_ms();
+  return known->second.session;
+}
+
+bool Sessions::close(const std::string& id) {
+  SessionPtr session;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = by_id_.find(id);
+    if (known == by_id_.end()) return false;
+    session = std::move(known->second.session);
+    by_id_.erase(known);
+  }
+  session->close();
+  return true;
+}
+
+void Sessions::close_idle() {
+  const double oldest = clock_.mono_ms() - kIdleMs;
+  std::vector<SessionPtr> idle;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto it = by_id_.begin(); it != by_id_.end();) {
+      if (it->second.used_ms >= oldest) {
+        ++it;
+        continue;
+      }
+      idle.push_back(std::move(it->second.session));
+      it = by_id_.erase(it);
+    }
+  }
+  for (const SessionPtr& session : idle) session->close();
+}
+
+void Sessions::close_all() {
+  std::map<std::string, Entry> all;
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+    all.swap(by_id_);
+  }
+  for (const auto& [id, entry] : all) entry.session->close();
+}
+
+int Sessions::count() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<int>(by_id_.size());
+}
+
+}  // namespace tilelight::server
