@@ -94,14 +94,21 @@ class Sample {
     spawn(path, at);
   }
 
-  // The first surface that is there: those inside a medium of higher priority are passed through, unbent.
+  // The media on the inner side of a medium's surface. One that is left without having been entered counts as entered.
+  static MediaStack media_inside(const PathRay& path, const ShadingPoint& at) {
+    return at.is_inside && path.media.contains(at.hit.body) ? path.media : path.media.with(at.hit.body);
+  }
+
+  // The first surface that is there: where another medium fills the inner side, the surface is passed through, unbent.
   std::optional<Hit> first_visible(PathRay& path) {
     while (const auto hit = scene_.nearest(path.ray)) {
       if (path.kind == ReferenceRayKind::primary && pixel_.primary_id == kNothingHit)
-        pixel_.primary_id = surface_id(hit->body, hit->triangle);
-      if (!scene_.is_medium(hit->body) || !path.media.hides(scene_, hit->body)) return hit;
+        pixel_.primary_id = surface_id(hit->body, hit->primitive);
+      if (!scene_.is_medium(hit->body)) return hit;
       const ShadingPoint at = shading_point(scene_.body(hit->body), *hit, path.ray.direction);
-      path.media = at.is_inside ? path.media.without(hit->body) : path.media.with(hit->body);
+      const MediaStack inside = media_inside(path, at);
+      if (inside.top(scene_) == hit->body) return hit;
+      path.media = at.is_inside ? inside.without(hit->body) : inside;
       path.ray = scene_.ray_from(*hit, path.ray.direction, Coincident::after);
     }
     return std::nullopt;
@@ -111,12 +118,12 @@ class Sample {
     const Material& material = scene_.material(at.hit.body);
     Color kr = material.reflection, kt = material.transmission;
     if (largest(kr) <= 0.0 && largest(kt) <= 0.0) return;
-    MediaStack beyond = path.media;
+    MediaStack here = path.media, beyond = path.media;
     double ior_from = 1.0, ior_to = 1.0;  // alike for thin bodies: straight on
     if (scene_.is_medium(at.hit.body)) {
-      const MediaStack here =
-          at.is_inside && !path.media.contains(at.hit.body) ? path.media.with(at.hit.body) : path.media;
-      beyond = at.is_inside ? here.without(at.hit.body) : here.with(at.hit.body);
+      const MediaStack inside = media_inside(path, at);
+      if (at.is_inside) here = inside;
+      beyond = at.is_inside ? inside.without(at.hit.body) : inside;
       ior_from = here.ior(scene_), ior_to = beyond.ior(scene_);
     }
     const Refraction through = refracted(path.ray.direction, at.geometric, at.shading, ior_from, ior_to);
@@ -126,7 +133,7 @@ class Sample {
       kr += kt * through.fresnel, kt *= 1.0 - through.fresnel;
     }
     const Vec3 mirror = reflected(path.ray.direction, at.geometric, at.shading);
-    push(path, at, ReferenceRayKind::reflected, kr, mirror, path.media,
+    push(path, at, ReferenceRayKind::reflected, kr, mirror, std::move(here),
          [](const Vec3& d, const ShadingPoint& s) { return std::optional(reflected(d, s.geometric, s.shading)); });
     push(path, at, ReferenceRayKind::refracted, kt, through.direction.value_or(mirror), std::move(beyond),
          [&](const Vec3& d, const ShadingPoint& s) {
@@ -195,7 +202,7 @@ class Sample {
   void log(const PathRay& path, const std::optional<Hit>& hit) {
     ReferenceRay ray{path.kind, path.depth, path.ray.origin, path.ray.direction, path.weight};
     if (hit) {
-      ray.hit_id = surface_id(hit->body, hit->triangle);
+      ray.hit_id = surface_id(hit->body, hit->primitive);
       ray.hit_point = scene_.body(hit->body).world_point(hit->local);
     }
     log_->push_back(ray);

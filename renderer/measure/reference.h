@@ -15,8 +15,8 @@ namespace tilelight {
 
 inline constexpr uint64_t kNothingHit = ~uint64_t{0};
 
-// The body in the upper half, the triangle of a mesh in the lower one (0 for other bodies).
-constexpr uint64_t surface_id(uint32_t body, uint32_t triangle) { return uint64_t{body} << 32 | triangle; }
+// The body in the upper half, its triangle or face (2 * axis, + 1 on the positive side) in the lower one.
+constexpr uint64_t surface_id(uint32_t body, uint32_t primitive) { return uint64_t{body} << 32 | primitive; }
 
 // What one sample saw.
 struct ReferencePixel {

@@ -89,7 +89,10 @@ AnalyticHits sphere_hits(uint32_t id, const Ray& ray, const Vec3& o, const Vec3&
 }
 
 Hit box_hit(uint32_t id, double t, int axis, double side, const Vec3& half, const Vec3& origin, const Vec3& direction) {
-  Hit hit{.t = t, .body = id, .face = axis, .local = glm::clamp(origin + t * direction, -half, half)};
+  Hit hit{.t = t,
+          .body = id,
+          .primitive = static_cast<uint32_t>(2 * axis + (side > 0.0 ? 1 : 0)),
+          .local = glm::clamp(origin + t * direction, -half, half)};
   hit.local[axis] = std::copysign(half[axis], side);
   return hit;
 }
@@ -136,14 +139,14 @@ Vec3 local_normal(const ReferenceBody& body, const Hit& hit) {
       return {0.0, 1.0, 0.0};
     case BodyKind::box: {
       Vec3 n(0.0);
-      n[hit.face] = std::copysign(1.0, hit.local[hit.face]);
+      n[static_cast<int>(hit.primitive / 2)] = hit.primitive % 2 ? 1.0 : -1.0;
       return n;
     }
     case BodyKind::mesh:
       break;
   }
   const TriMesh& mesh = *body.mesh->mesh;
-  const auto& [a, b, c] = corners(mesh, hit.triangle);
+  const auto& [a, b, c] = corners(mesh, hit.primitive);
   const Vec3 ab = mesh.positions[b] - mesh.positions[a], ac = mesh.positions[c] - mesh.positions[a];
   return glm::normalize(glm::cross(ab / largest(ab), ac / largest(ac)));
 }
@@ -214,7 +217,7 @@ std::optional<Hit> triangle_hit(const TriMesh& mesh, uint32_t body, uint32_t tri
   const Vec3 bary = Vec3(u, v, w) / det;
   const double t = ray.sz * (bary.x * a[ray.kz] + bary.y * b[ray.kz] + bary.z * c[ray.kz]);
   const Vec3 local = bary.x * mesh.positions[ia] + bary.y * mesh.positions[ib] + bary.z * mesh.positions[ic];
-  return Hit{.t = t, .body = body, .triangle = triangle, .local = local, .barycentric = bary};
+  return Hit{.t = t, .body = body, .primitive = triangle, .local = local, .barycentric = bary};
 }
 
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit) {
@@ -225,7 +228,7 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit) {
   const Vec3 n = geometric_normal(body, hit);
   SurfacePoint s{body.world_point(hit.local), n, n};
   if (body.kind == BodyKind::mesh && !body.mesh->mesh->corner_normals.empty()) {
-    const auto& normals = body.mesh->mesh->corner_normals[hit.triangle];
+    const auto& normals = body.mesh->mesh->corner_normals[hit.primitive];
     const Vec3 sum = hit.barycentric.x * normals[0] + hit.barycentric.y * normals[1] + hit.barycentric.z * normals[2];
     const Vec3 world = body.normal_from_local * sum;
     if (glm::dot(world, world) > 0.0) s.shading = glm::normalize(world);  // opposite normals cancel: the geometric one
@@ -256,7 +259,7 @@ std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, c
   moved.local = o + moved.t * d;
   if (body.kind == BodyKind::mesh) {
     const TriMesh& mesh = *body.mesh->mesh;
-    const auto& [ia, ib, ic] = corners(mesh, hit.triangle);
+    const auto& [ia, ib, ic] = corners(mesh, hit.primitive);
     const Vec3 e1 = mesh.positions[ib] - mesh.positions[ia], e2 = mesh.positions[ic] - mesh.positions[ia];
     const Vec3 p = moved.local - mesh.positions[ia], area = glm::cross(e1, e2);
     const double area2 = glm::dot(area, area);

@@ -23,10 +23,9 @@ inline constexpr double kRounding = 0x1p-46;
 struct Hit {
   double t = 0.0;  // along the ray, in lengths of its direction
   uint32_t body = kNoBody;
-  uint32_t triangle = 0;  // meshes
-  int face = 0;           // boxes: axis of the face
-  Vec3 local{0.0};        // meshes: rounded; other kinds: on the surface
-  Vec3 barycentric{0.0};  // meshes
+  uint32_t primitive = 0;  // meshes: the triangle; boxes: 2 * axis of the face, + 1 on the positive side
+  Vec3 local{0.0};         // meshes: rounded; other kinds: on the surface
+  Vec3 barycentric{0.0};   // meshes
 };
 
 // What a ray that starts on a surface does with other bodies' surfaces in the very same place (a glass foot standing on

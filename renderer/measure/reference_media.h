@@ -17,19 +17,16 @@ class MediaStack {
 
   // The index of refraction of what is there; 1 outside all media.
   double ior(const ReferenceScene& scene) const {
-    const Material* top = nullptr;
-    for (const uint32_t id : bodies_) {
-      const Material& m = scene.material(id);
-      if (!top || m.priority >= top->priority) top = &m;
-    }
-    return top ? top->ior : 1.0;
+    const uint32_t id = top(scene);
+    return id == kNoBody ? 1.0 : scene.material(id).ior;
   }
 
-  // Whether the surface of medium `body_id` lies inside another medium of higher priority, so that it is not there.
-  bool hides(const ReferenceScene& scene, uint32_t body_id) const {
-    const int priority = scene.material(body_id).priority;
-    return std::any_of(bodies_.begin(), bodies_.end(),
-                       [&](uint32_t id) { return id != body_id && scene.material(id).priority > priority; });
+  // The medium that is there; kNoBody outside all media.
+  uint32_t top(const ReferenceScene& scene) const {
+    uint32_t best = kNoBody;
+    for (const uint32_t id : bodies_)
+      if (best == kNoBody || scene.material(id).priority >= scene.material(best).priority) best = id;
+    return best;
   }
 
   bool contains(uint32_t body_id) const { return std::find(bodies_.begin(), bodies_.end(), body_id) != bodies_.end(); }

@@ -96,7 +96,7 @@ bool ReferenceScene::is_before(const Ray& ray, const Hit& hit, const Hit& best) 
   const double slope =
       std::max(steepness(bodies_[hit.body], hit, ray.direction), steepness(bodies_[best.body], best, ray.direction));
   if (gap * slope > noise) return hit.t < best.t;
-  return hit.body != best.body ? hit.body < best.body : hit.triangle < best.triangle;
+  return hit.body != best.body ? hit.body < best.body : hit.primitive < best.primitive;
 }
 
 template <class Offer>
@@ -111,7 +111,7 @@ bool ReferenceScene::offer_body(uint32_t id, const Ray& ray, const double& t_max
   const ShearedRay local(body.local_point(ray.origin), body.local_from_world * ray.direction);
   const TriMesh& mesh = *body.mesh->mesh;
   return body.mesh->tree.visit(local.origin, local.direction, -ray.noise * kGraze, t_max, [&](uint32_t triangle) {
-    if (id == ray.left.body && triangle == ray.left.triangle) return false;
+    if (id == ray.left.body && triangle == ray.left.primitive) return false;
     const auto hit = triangle_hit(mesh, id, triangle, local);
     return hit && is_ahead(ray, *hit) && offer(*hit);
   });

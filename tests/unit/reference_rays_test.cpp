@@ -213,11 +213,10 @@ TEST(ReferenceMedia, GiveTheOverlapToTheHigherPriority) {
 }
 
 TEST(ReferenceMedia, OfEqualPriorityAreWhereTheRayEnteredLast) {
-  const Look seen = through_overlap(0, 0);  // at z = 0, 1, 2, 3; nothing bends at 2
-  ASSERT_EQ(bodies_hit(seen), (std::vector<uint32_t>{0, 1, 0, 1}));
+  const Look seen = through_overlap(0, 0);  // at z = 0, 1, 3: the end of the glass lies inside the water
+  ASSERT_EQ(bodies_hit(seen), (std::vector<uint32_t>{0, 1, 1}));
   EXPECT_NEAR(sine_to_z(seen.rays[2].direction), 0.6 / 1.33, 1e-14);
-  EXPECT_EQ(seen.rays[3].direction, seen.rays[2].direction);
-  EXPECT_NEAR(sine_to_z(seen.rays[4].direction), 0.6, 1e-14);
+  EXPECT_NEAR(sine_to_z(seen.rays[3].direction), 0.6, 1e-14);
 }
 
 TEST(ReferenceMedia, MakeAThinShellOfFourInterfaces) {
