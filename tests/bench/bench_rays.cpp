@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_rays: rays a second for primary rays, shadow rays and whole frames of a scene, each beside the same work on the
+// plainest instruction set, and where the time of one request goes. Figures are medians of several rounds, the two sides of
+// a ratio taken in turn.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "renderer/film/sampling.h"
+#include "renderer/renderer.h"
+#include "renderer/shade/light_equation.h"
+#include "renderer/shade/surface.h"
+#include "renderer/trace/isa.h"
+#include "renderer/trace/trace_rays.h"
+
+namespace tilelight {
+namespace {
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+constexpr int kTilePx = 32;
+
+// Rays of one tile, as a kernel would batch them.
+using Batches = std::vector<std::vector<BoundedRay>>;
+
+Batches primary_rays(const ViewPlan& plan) {
+  const ImageSpec& image = plan.view.image;
+  Batches batches(static_cast<size_t>(tile_count(image.width, image.height, kTilePx)));
+  for (size_t i = 0; i < batches.size(); ++i) {
+    const TileRect rect = tile_rect(static_cast<int>(i), image.width, image.height, kTilePx);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const SamplePoint p = sample_point(x, y, 0, 0);
+        const Vec3 at = plan.eye.corner + (x + p.x) * plan.eye.step_x + (y + p.y) * plan.eye.step_y;
+        batches[i].push_back({{plan.eye.origin, glm::normalize(at), {}}});
+      }
+    }
+  }
+  return batches;
+}
+
+Batches shadow_rays(const CompiledScene& scene, const Batches& primary) {
+  Batches batches;
+  for (const auto& rays : primary) {
+    std::vector<Hit> hits(rays.size());
+    trace_closest(scene, rays, hits);
+    auto& out = batches.emplace_back();
+    for (size_t i = 0; i < rays.size(); ++i) {
+      if (!hits[i].is_hit()) continue;
+      const Surface surface = make_surface(scene, rays[i].ray, hits[i]);
+      for (const CompiledLight& light : scene.lights) {
+        const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction);
+        if (sample.is_lit && light.shadow) {
+          out.push_back({{surface.position, sample.to_light, surface.here}, sample.distance});
+        }
+      }
+    }
+  }
+  return batches;
+}
+
+int64_t count(const Batches& batches) {
+  int64_t n = 0;
+  for (const auto& b : batches) n += static_cast<int64_t>(b.size());
+  return n;
+}
+
+struct Row {
+  const char* name;
+  int64_t rays = 0;
+  std::function<void()> work;
+};
+
+// Rounds of best, plain, best, plain, ...: the ratio holds when the machine's speed drifts.
+void print_row(const Row& row, int rounds, const std::string& plain) {
+  std::vector<double> best_s, plain_s, ratio;
+  for (int i = 0; i < rounds; ++i) {
+    (void)select_isa("auto");
+    best_s.push_back(seconds_of(row.work));
+    (void)select_isa(plain);
+    plain_s.push_back(seconds_of(row.work));
+    ratio.push_back(plain_s.back() / best_s.back());
+  }
+  (void)select_isa("auto");
+  const double mrays = static_cast<double>(row.rays) * 1e-6;
+  std::printf("%-14s %9.2f %10.1f %12.2f %16.2f %9.2fx\n", row.name, mrays, 1e3 * median(best_s), mrays / median(best_s),
+              mrays / median(plain_s), median(ratio));
+}
+
+struct Stage {
+  const char* name;
+  double ms;
+};
+
+void print_stages(const std::vector<Stage>& stages) {
+  double total = 0.0;
+  for (const Stage& s : stages) total += s.ms;
+  std::printf("\n%-14s %10s %8s\n", "stage", "ms", "share");
+  for (const Stage& s : stages) std::printf("%-14s %10.2f %7.1f%%\n", s.name, s.ms, 100.0 * s.ms / total);
+  std::printf("%-14s %10.2f\n", "request", total);
+}
+
+int run(const std::string& path, int rounds, int threads) {
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  TilePool pool(threads);
+
+  std::vector<Stage> stages;
+  const auto stage = [&](const char* name, const std::function<void()>& work) {
+    stages.push_back({name, 1e3 * seconds_of(work)});
+  };
+  tl::expected<ParsedScene, SceneErrors> parsed;
+  stage("parse", [&] { parsed = parse_scene(text, Limits{}); });
+  if (!parsed) {
+    std::fprintf(stderr, "%s: %s\n", path.c_str(),
+                 parsed.error().errors.empty() ? "cannot be read" : parsed.error().errors[0].detail.c_str());
+    return 1;
+  }
+  View view = parsed->view;
+  view.render.samples = 1;
+  view.render.time_ms.reset();
+  view.render.passes.clear();
+  std::shared_ptr<const CompiledScene> scene;
+  ViewPlan plan;
+  stage("compile", [&] { scene = compile_scene(parsed->scene, pool); });
+  stage("plan", [&] { plan = plan_view(*scene, view); });
+  std::shared_ptr<Render> render;
+  const auto render_frame = [&] {
+    render = Render::start(pool, Priority::normal, scene, plan);
+    render->wait_ms(1e12);
+  };
+  stage("render", render_frame);
+  Result<std::string> png;
+  stage("encode", [&] { png = encode_image(*render->image(), view.image.exposure, ImageFormat::png); });
+
+  const std::string plain = available_isas().back();
+  std::printf("%s, %dx%d, 1 sample a pixel, %lld triangles, kernel %s, %s, %d threads; median of %d rounds\n\n",
+              path.c_str(), view.image.width, view.image.height,
+              static_cast<long long>(plan.plan.triangles_instanced), plan.plan.kernel.c_str(), plan.plan.isa.c_str(),
+              pool.thread_count(), rounds);
+  std::printf("%-14s %9s %10s %12s %16s %10s\n", "rays", "Mrays", "ms", "Mrays/s", ("on " + plain).c_str(), "ratio");
+  const Batches primary = primary_rays(plan);
+  const Batches shadow = shadow_rays(*scene, primary);
+  const auto each_batch = [&](const Batches& batches, auto trace) {
+    pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
+                      [&](int64_t i) { trace(batches[static_cast<size_t>(i)]); });
+  };
+  print_row({"primary", count(primary),
+             [&] {
+               each_batch(primary, [&](const std::vector<BoundedRay>& rays) {
+                 std::vector<Hit> hits(rays.size());
+                 trace_closest(*scene, rays, hits);
+               });
+             }},
+            rounds, plain);
+  print_row({"shadow", count(shadow),
+             [&] {
+               each_batch(shadow, [&](const std::vector<BoundedRay>& rays) {
+                 std::vector<uint8_t> is_blocked(rays.size());
+                 trace_any(*scene, rays, is_blocked);
+               });
+             }},
+            rounds, plain);
+  print_row({"whole frame", render->report().points.back().rays.total(), render_frame}, rounds, plain);
+  print_stages(stages);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tilelight
+
+int main(int argc, char** argv) {
+  CLI::App app{"Rays a second of the fast renderer, and where the time of a request goes"};
+  std::string path = TILELIGHT_SOURCE_DIR "/web/scenes/opening.json";
+  int rounds = 5, threads = 0;
+  app.add_option("scene", path, "Scene file")->check(CLI::ExistingFile)->capture_default_str();
+  app.add_option("--rounds", rounds, "Rounds of each measurement")->check(CLI::Range(1, 100))->capture_default_str();
+  app.add_option("--threads", threads, "Threads; 0: one a core")->check(CLI::Range(0, 1024))->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  return tilelight::run(path, rounds, threads);
+}
