@@ -18,7 +18,7 @@ namespace {
 constexpr double kTableY = 0.372;
 
 // Even, so that columns run along the crest and under the jaw.
-int knight_columns(int detail) { return round_up(detail + std::min(detail / 3, 16), 4); }
+int knight_columns(int detail) { return round_up(detail + std::min(detail / 4, 16), 4); }
 
 Profile foot_profile(int detail) {
   Profile profile = turned_foot({.radius = 0.325, .height = 0.30, .stem_radius = 0.215}, detail);
@@ -34,28 +34,29 @@ struct Section {
   Vec2 below, above;
   double share;
 };
-constexpr std::array<Section, 19> kSections{{{{0.245, kTableY}, {-0.245, kTableY}, 0.07},
-                                             {{0.255, 0.460}, {-0.255, 0.460}, 0.07},
-                                             {{0.255, 0.550}, {-0.265, 0.580}, 0.08},
-                                             {{0.215, 0.640}, {-0.265, 0.740}, 0.07},
-                                             {{0.165, 0.710}, {-0.245, 0.860}, 0.06},
-                                             {{0.132, 0.752}, {-0.200, 0.990}, 0.05},
+constexpr std::array<Section, 19> kSections{{{{0.245, kTableY}, {-0.245, kTableY}, 0.08},
+                                             {{0.255, 0.460}, {-0.255, 0.460}, 0.08},
+                                             {{0.255, 0.550}, {-0.265, 0.580}, 0.09},
+                                             {{0.215, 0.640}, {-0.265, 0.740}, 0.09},
+                                             {{0.165, 0.710}, {-0.245, 0.860}, 0.08},
+                                             {{0.132, 0.752}, {-0.200, 0.990}, 0.06},
                                              {{0.122, 0.768}, {-0.130, 1.090}, 0.05},
-                                             {{0.122, 0.768}, {-0.050, 1.170}, 0.05},
-                                             {{0.126, 0.764}, {0.015, 1.215}, 0.05},
+                                             {{0.122, 0.768}, {-0.050, 1.170}, 0.04},
+                                             {{0.126, 0.764}, {0.015, 1.215}, 0.04},
                                              {{0.132, 0.760}, {0.065, 1.225}, 0.05},
                                              {{0.140, 0.756}, {0.115, 1.200}, 0.06},
-                                             {{0.155, 0.750}, {0.175, 1.150}, 0.08},
+                                             {{0.155, 0.750}, {0.175, 1.150}, 0.09},
                                              {{0.178, 0.742}, {0.230, 1.065}, 0.07},
                                              {{0.208, 0.732}, {0.275, 0.990}, 0.06},
-                                             {{0.242, 0.720}, {0.320, 0.930}, 0.06},
+                                             {{0.242, 0.720}, {0.320, 0.930}, 0.05},
                                              {{0.270, 0.715}, {0.354, 0.892}, 0.05},
                                              {{0.286, 0.717}, {0.370, 0.876}, 0.05},
                                              {{0.300, 0.724}, {0.376, 0.862}, 0.04},
                                              {{0.312, 0.742}, {0.372, 0.846}, 0.00}}};
 
 int section_rows(const Section& section, int detail) {
-  return std::max(1, static_cast<int>(section.share * 9.0 * std::sqrt(double(detail)) + 0.5));
+  const double all = 200.0 * detail / (detail + 75.0);  // eighty show the face well at the default detail
+  return std::max(1, static_cast<int>(section.share * all + 0.5));
 }
 
 int horse_rows(int detail) {
@@ -99,7 +100,7 @@ Vec3 cast_onto_form(const Vec3& from, const Vec3& direction, double reach) {
 
 class Horse {
  public:
-  Horse(int columns, int detail) : columns_(columns), detail_(detail), normal_step_(0.028 / std::sqrt(double(detail))) {
+  Horse(int columns, int detail) : columns_(columns), detail_(detail), normal_step_(0.055 / std::sqrt(double(detail))) {
     for (size_t i = 0; i + 1 < kSections.size(); ++i) {
       const Section &a = kSections[i], &b = kSections[i + 1];
       const int rows = section_rows(a, detail_);
@@ -137,7 +138,8 @@ class Horse {
     const size_t first = points_.size();
     points_.push_back(on_midline(top));
     for (int j = 1; j < columns_ / 2; ++j) {
-      const double angle = 2.0 * elementary::kPi * j / columns_;
+      const double s = 2.0 * j / columns_;
+      const double angle = elementary::kPi * s * (0.75 + 0.25 * s);  // closer on the face than under jaw and chest
       const Vec3 direction =
           glm::normalize(height * elementary::cos(angle) * up + width * elementary::sin(angle) * across);
       const double down = -glm::dot(direction, up);

@@ -85,13 +85,13 @@ constexpr std::array<Station, 4> kSkull{{{0.050, 1.105, 0.102, 0.086},
                                          {0.228, 0.920, 0.076, 0.064},
                                          {0.302, 0.832, 0.060, 0.054}}};
 // The crest of the mane, from the poll down to the back.
-constexpr std::array<Station, 7> kCrest{{{0.020, 1.180, 0.050, 0.046},
-                                         {-0.055, 1.130, 0.068, 0.052},
-                                         {-0.130, 1.030, 0.076, 0.058},
-                                         {-0.172, 0.900, 0.078, 0.062},
-                                         {-0.184, 0.740, 0.078, 0.066},
-                                         {-0.176, 0.560, 0.078, 0.072},
-                                         {-0.166, 0.340, 0.078, 0.080}}};
+constexpr std::array<Station, 7> kCrest{{{0.020, 1.182, 0.052, 0.048},
+                                         {-0.055, 1.130, 0.072, 0.058},
+                                         {-0.126, 1.030, 0.084, 0.067},
+                                         {-0.168, 0.900, 0.088, 0.074},
+                                         {-0.180, 0.740, 0.088, 0.080},
+                                         {-0.172, 0.560, 0.088, 0.086},
+                                         {-0.162, 0.340, 0.086, 0.092}}};
 
 double catmull_rom(double a, double b, double c, double d, double t) {
   return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
@@ -128,10 +128,11 @@ double mane(const FormPoint& p) {
     d = std::min(d, di);
     walked += length;
   }
-  constexpr double kLock = 0.112, kSlant = 0.9, kGroove = 0.017;
+  constexpr double kLock = 0.120, kSlant = 0.7, kGroove = 0.018, kSoftness = 0.12;
   const double phase = (along - kSlant * p.side) / kLock;
-  const double t = 2.0 * (phase - std::floor(phase)) - 1.0;
-  return d + kGroove * t * t - 0.004;  // round locks between sharp grooves
+  const double from_groove = 1.0 - std::fabs(2.0 * (phase - std::floor(phase)) - 1.0);  // 1 in the middle of a lock
+  const double t = 1.0 + kSoftness - std::sqrt(from_groove * from_groove + kSoftness * kSoftness);
+  return d + kGroove * t * t - 0.004;
 }
 
 double head(const FormPoint& p) {
@@ -153,12 +154,12 @@ double head(const FormPoint& p) {
 }
 
 double eye_and_brow(const FormPoint& p, double d) {
-  const Ball socket{{0.108, 1.046, 0.174}, {0.036, 0.040, 0.056}};
-  const Ball eyeball{{0.056, 1.046, 0.174}, {0.032, 0.027, 0.035}};
-  const Rod brow{{0.062, 1.102, 0.122}, {0.064, 1.084, 0.206}, 0.026, 0.017};
-  d = join(d, rod(p, brow), 0.022);
-  d = carve(d, ball(p, socket), 0.022);
-  return join(d, ball(p, eyeball), 0.006);
+  const Ball socket{{0.117, 1.040, 0.180}, {0.050, 0.050, 0.072}};
+  const Ball eyeball{{0.058, 1.044, 0.178}, {0.034, 0.031, 0.041}};
+  const Rod brow{{0.054, 1.104, 0.124}, {0.050, 1.098, 0.184}, 0.026, 0.022};
+  d = join(d, rod(p, brow), 0.050);
+  d = carve(d, ball(p, socket), 0.055);
+  return join(d, ball(p, eyeball), 0.010);
 }
 
 double mouth_and_nostril(const FormPoint& p, double d) {
