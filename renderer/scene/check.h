@@ -2,8 +2,6 @@
 // check_document: holds a document against the grammar.
 #pragma once
 
-#include <string>
-
 #include "renderer/scene/document.h"
 #include "renderer/scene/grammar.h"
 #include "renderer/scene/problems.h"
@@ -15,8 +13,5 @@ void check_document(Value root, const Record& grammar, Problems& problems);
 
 // Reports every name that stands more than once in one object.
 void report_duplicates(Document& document, Problems& problems);
-
-// What a rule allows, for messages: "a number from 0 to 1", "3 numbers", ...
-std::string describe_allowed(const Rule& rule);
 
 }  // namespace tilelight

@@ -157,7 +157,8 @@ void DocumentBuilder::find_duplicates(uint32_t object) {
   }
   std::stable_sort(members.begin(), members.end(), [](Value a, Value b) { return a.key() < b.key(); });
   for (size_t i = 1; i < members.size(); ++i) {
-    if (members[i].key() == members[i - 1].key()) document_.duplicates_.push_back(members[i].index_);
+    const bool is_last = i + 1 == members.size() || members[i + 1].key() != members[i].key();
+    if (is_last && members[i].key() == members[i - 1].key()) document_.duplicates_.push_back(members[i].index_);
   }
 }
 

@@ -20,7 +20,7 @@ class Value;
 class Document {
  public:
   Value root();
-  // The second and later members of one name in one object, in the order of the text.
+  // Of every name that stands more than once in one object, its last member.
   std::vector<Value> duplicates();
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <vector>
 
 namespace tilelight {
@@ -186,21 +187,32 @@ class Scanner {
   size_t at_ = 0;
 };
 
+// Turns offsets, asked for in ascending order, into places by one pass over the text.
+class PlaceCounter {
+ public:
+  explicit PlaceCounter(std::string_view text) : text_(text) {}
+
+  TextPlace advance_to(size_t offset) {
+    for (offset = std::min(offset, text_.size()); at_ < offset; ++at_) {
+      if (text_[at_] == '\n') {
+        ++place_.line;
+        place_.column = 1;
+      } else if ((static_cast<unsigned char>(text_[at_]) & 0xC0) != 0x80) {  // not the inside of a character
+        ++place_.column;
+      }
+    }
+    return place_;
+  }
+
+ private:
+  std::string_view text_;
+  size_t at_ = 0;
+  TextPlace place_{1, 1};
+};
+
 }  // namespace
 
-TextPlace place_of_offset(std::string_view text, size_t offset) {
-  const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  TextPlace place{1, 1};
-  size_t line_at = 0;
-  for (size_t i = before.find('\n'); i != std::string_view::npos; i = before.find('\n', i + 1)) {
-    ++place.line;
-    line_at = i + 1;
-  }
-  for (const char c : before.substr(line_at)) {
-    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++place.column;  // not the inside of a character
-  }
-  return place;
-}
+TextPlace place_of_offset(std::string_view text, size_t offset) { return PlaceCounter(text).advance_to(offset); }
 
 void find_places(std::string_view text, std::span<PlaceRequest> requests) {
   std::vector<Wanted> wanted;
@@ -213,10 +225,12 @@ void find_places(std::string_view text, std::span<PlaceRequest> requests) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   Scanner(text.substr(mark)).scan(all, 0);
-  for (size_t i = 0; i < requests.size(); ++i) {
-    if (wanted[i].offset != std::string_view::npos) {
-      requests[i].place = place_of_offset(text.substr(mark), wanted[i].offset);
-    }
+  std::vector<size_t> in_order(requests.size());
+  std::iota(in_order.begin(), in_order.end(), size_t{0});
+  std::sort(in_order.begin(), in_order.end(), [&](size_t a, size_t b) { return wanted[a].offset < wanted[b].offset; });
+  PlaceCounter counter(text.substr(mark));
+  for (const size_t i : in_order) {
+    if (wanted[i].offset != std::string_view::npos) requests[i].place = counter.advance_to(wanted[i].offset);
   }
 }
 
