@@ -6,7 +6,6 @@
 namespace tilelight::server {
 namespace {
 
-constexpr double kDrainMs = 2'000.0;    // for running renders to end by themselves
 constexpr double kAnswerMs = 1'000.0;   // for the last answers to reach their clients
 constexpr int kFreeWorkers = 32;        // that never wait for a render, so that other requests are always answered
 constexpr int64_t kSceneStoreBytes = int64_t{256} << 20;
@@ -96,7 +95,7 @@ void App::stop() {
   has_stopped_ = true;
   is_stopping_.store(true, std::memory_order_release);
   sessions_.close_all();
-  queue_->drain(kDrainMs);
+  queue_->drain(config_.drain_ms);
   if (http_) http_->stop(kAnswerMs);
   if (admin_) admin_->stop(kAnswerMs);
   housekeeper_ = {};

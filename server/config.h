@@ -33,8 +33,9 @@ struct Config {
   LogFormat log_format = LogFormat::automatic;
   Limits limits;
 
-  // Not for operators: the front's patience, which tests shorten.
+  // Not for operators: the server's patience, which tests shorten.
   double head_timeout_ms = 10'000.0;
+  double drain_ms = 2'000.0;  // for running renders to end by themselves when the server stops
   int max_waiting = 160;  // requests that wait for a render, a change or a frame
 };
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions: the newest view wins, frames are numbered, and nobody's session stays for ever.
+#include <thread>
+
+#include "tests/service/service_fixture.h"
+
+namespace tilelight::service {
+namespace {
+
+using SessionsOfService = ServiceTest;
+
+std::string open_session(const Service& service, const std::string& scene) {
+  const auto answer = service.post("/v1/sessions", scene);
+  EXPECT_EQ(answer.status, 201) << answer.body;
+  return answer.header("location");
+}
+
+HttpAnswer put_view(const Service& service, const std::string& session, const std::string& view) {
+  return ask_json(service.port(), "PUT", session + "/view", view);
+}
+
+// The final frame of a view: asks for frame after frame.
+HttpAnswer final_frame(const Service& service, const std::string& session, const std::string& view_seq) {
+  std::string after = "0";
+  for (;;) {
+    const auto frame = service.get(session + "/frame?after=" + after);
+    if (frame.status != 200) return frame;
+    if (frame.header("view-seq") == view_seq && frame.header("frame-final") == "?1") return frame;
+    after = frame.header("frame-seq");
+  }
+}
+
+TEST_F(SessionsOfService, OpeningOneTellsTheCameraAndStartsTheFirstView) {
+  const auto answer = service_->post("/v1/sessions", small_scene());
+  ASSERT_EQ(answer.status, 201) << answer.body;
+  const Json session = Json::parse(answer.body);
+  EXPECT_EQ(answer.header("location"), "/v1/sessions/" + session.at("id").get<std::string>());
+  EXPECT_EQ(session.at("view_seq"), 0);
+  EXPECT_EQ(session.at("image").at("width"), 48);
+  EXPECT_EQ(session.at("camera").at("position").size(), 3);
+  EXPECT_EQ(session.at("bounds").at("min").size(), 3);
+  const auto frame = final_frame(*service_, answer.header("location"), "0");
+  EXPECT_EQ(frame.status, 200);
+  EXPECT_EQ(png_size(frame.body), std::pair(48, 32));
+  EXPECT_NE(frame.header("render-info").find("spp=2"), std::string::npos);
+}
+
+TEST_F(SessionsOfService, AnUnmovedSessionShowsThePictureOfTheScene) {
+  const std::string session = open_session(*service_, small_scene(9));
+  const auto picture = service_->post("/v1/renders", small_scene(9), {{"Accept", "image/png"}});
+  EXPECT_EQ(final_frame(*service_, session, "0").body, picture.body);
+}
+
+TEST_F(SessionsOfService, TheNewestViewWinsAndCancelsTheOlder) {
+  const std::string session = open_session(*service_, small_scene());
+  const std::string endless = R"("image": {"width": 2048, "height": 2048}, "render": {"samples": 4096})";
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 1, )" + endless + "}").status, 204);
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 3, "camera": {"fov_y_deg": 20}})").status, 204);
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 2, )" + endless + "}").status, 204) << "older: ignored";
+  const auto frame = final_frame(*service_, session, "3");
+  EXPECT_EQ(frame.status, 200);
+  EXPECT_EQ(png_size(frame.body), std::pair(48, 32)) << "merged over the scene, not over the view before";
+}
+
+TEST_F(SessionsOfService, WhileMovingOneSampleAPixelIsEnough) {
+  const std::string session = open_session(*service_, small_scene());
+  put_view(*service_, session, R"({"seq": 1, "moving": true})");
+  EXPECT_NE(final_frame(*service_, session, "1").header("render-info").find("spp=1,"), std::string::npos);
+  put_view(*service_, session, R"({"seq": 2, "moving": false})");
+  EXPECT_NE(final_frame(*service_, session, "2").header("render-info").find("spp=2,"), std::string::npos);
+}
+
+TEST_F(SessionsOfService, AFrameThatIsNotThereYetIsWaitedForOr204) {
+  const std::string session = open_session(*service_, small_scene());
+  const std::string last = final_frame(*service_, session, "0").header("frame-seq");
+  EXPECT_EQ(service_->get(session + "/frame?after=" + last, {{"Prefer", "wait=0"}}).status, 204);
+  HttpAnswer next;
+  std::thread waiter([&] { next = service_->get(session + "/frame?after=" + last); });
+  put_view(*service_, session, R"({"seq": 1})");
+  waiter.join();
+  EXPECT_EQ(next.status, 200);
+  EXPECT_GT(std::stoi(next.header("frame-seq")), std::stoi(last));
+}
+
+TEST_F(SessionsOfService, ClosingOneAnswersWhoWaitsInIt) {
+  const std::string session = open_session(*service_, small_scene());
+  const std::string last = final_frame(*service_, session, "0").header("frame-seq");
+  HttpClient waiter(service_->port());
+  waiter.write("GET " + session + "/frame?after=" + last + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  ask(service_->port(), "DELETE", session);
+  const int status = waiter.read().status;
+  EXPECT_TRUE(status == 410 || status == 404) << status << ": closed while it waited, or before it came";
+  EXPECT_EQ(service_->get(session + "/frame").status, 404);
+}
+
+TEST_F(SessionsOfService, AnIdleSessionEndsAfterFiveMinutes) {
+  Service own;
+  const std::string used = open_session(own, small_scene()), idle = open_session(own, small_scene());
+  own.clock().advance_ms(4 * 60'000.0);
+  EXPECT_EQ(own.get(used + "/frame").status, 200);
+  own.clock().advance_ms(2 * 60'000.0);
+  EXPECT_EQ(own.get(idle + "/frame").status, 404);
+  EXPECT_EQ(own.get(used + "/frame").status, 200);
+}
+
+TEST_F(SessionsOfService, TheirNumberIsLimited) {
+  server::Config config;
+  config.max_sessions = 2;
+  Service own(config);
+  open_session(own, small_scene());
+  open_session(own, small_scene());
+  const auto third = own.post("/v1/sessions", small_scene());
+  EXPECT_EQ(third.status, 503);
+  EXPECT_FALSE(third.header("retry-after").empty());
+}
+
+TEST_F(SessionsOfService, ABadViewIs422AndChangesNothing) {
+  const std::string session = open_session(*service_, small_scene());
+  EXPECT_EQ(put_view(*service_, session, R"({"camera": {}})").status, 422) << "no seq";
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 1.5})").status, 422);
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 1, "camera": {"fov_y_deg": 200}})").status, 422);
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 1, "objects": []})").status, 422);
+  EXPECT_EQ(put_view(*service_, session, R"({"seq": 1,)").status, 400);
+  EXPECT_EQ(final_frame(*service_, session, "0").status, 200);
+}
+
+}  // namespace
+}  // namespace tilelight::service
