@@ -14,7 +14,7 @@ inline constexpr int kMinDetail = 8, kMaxDetail = 512;
 // One closed surface with outward normals; `detail` = segments around the axis, kMinDetail..kMaxDetail (clamped),
 // rounded up where a head needs it: to a multiple of 18 for the rook's gaps, of 16 for the queen's scallops. The same
 // detail gives the same bits on every CPU. Cost grows with about the power 1.5 of detail: 500 to 1,500 triangles at 8,
-// 5,000 to 15,000 at 48, 150,000 to 310,000 at 512.
+// 5,000 to 15,000 at 48, 150,000 to 320,000 at 512.
 TriMesh make_chess_piece(Piece piece, int detail);
 
 // The number of triangles make_chess_piece would make, without making them (for limits); exact, microseconds.

@@ -11,6 +11,7 @@
 #include "renderer/geometry/knight_form.h"
 #include "renderer/geometry/lathe.h"
 #include "renderer/geometry/staunton.h"
+#include "renderer/geometry/weld.h"
 
 namespace tilelight {
 namespace {
@@ -51,7 +52,7 @@ constexpr std::array<Section, 19> kSections{{{{0.245, kTableY}, {-0.245, kTableY
                                              {{0.242, 0.720}, {0.320, 0.930}, 0.05},
                                              {{0.270, 0.715}, {0.354, 0.892}, 0.05},
                                              {{0.286, 0.717}, {0.370, 0.876}, 0.05},
-                                             {{0.300, 0.724}, {0.376, 0.862}, 0.04},
+                                             {{0.300, 0.724}, {0.376, 0.862}, 0.03},
                                              {{0.312, 0.742}, {0.372, 0.846}, 0.00}}};
 
 int section_rows(const Section& section, int detail) {
@@ -59,8 +60,11 @@ int section_rows(const Section& section, int detail) {
   return std::max(1, static_cast<int>(section.share * all + 0.5));
 }
 
+int muzzle_rows(int detail) { return std::max(2, static_cast<int>(0.9 * std::sqrt(double(detail)) + 0.5)); }
+
+// Full rows of quads; the muzzle's last row is a fan.
 int horse_rows(int detail) {
-  int rows = 0;
+  int rows = muzzle_rows(detail) - 1;
   for (size_t i = 0; i + 1 < kSections.size(); ++i) rows += section_rows(kSections[i], detail);
   return rows;
 }
@@ -100,7 +104,7 @@ Vec3 cast_onto_form(const Vec3& from, const Vec3& direction, double reach) {
 
 class Horse {
  public:
-  Horse(int columns, int detail) : columns_(columns), detail_(detail), normal_step_(0.055 / std::sqrt(double(detail))) {
+  Horse(int columns, int detail) : columns_(columns), detail_(detail) {
     for (size_t i = 0; i + 1 < kSections.size(); ++i) {
       const Section &a = kSections[i], &b = kSections[i + 1];
       const int rows = section_rows(a, detail_);
@@ -110,20 +114,14 @@ class Horse {
       }
     }
     add_section(kSections.back().below, kSections.back().above);
-    add_tip(kSections.back());
+    add_muzzle(kSections.back());
+    add_points();
   }
 
   // Row 0 is level with the table; the last row is one point, the tip of the muzzle.
   const std::vector<SurfacePoint>& points() const { return points_; }
 
  private:
-  SurfacePoint on_form(const Vec3& p) const { return {p, knight_form_normal(p, normal_step_)}; }
-  SurfacePoint on_midline(const Vec3& p) const {
-    SurfacePoint point = on_form(p);
-    point.normal = glm::normalize(Vec3(0.0, point.normal.y, point.normal.z));
-    return point;
-  }
-
   // A ring of points from the crest around over +x and -x to the crest again, at even steps of an ellipse's parameter,
   // so that the narrow crest has its share.
   void add_section(Vec2 below, Vec2 above) {
@@ -135,35 +133,71 @@ class Horse {
     const double height = 0.5 * glm::length(top - bottom), width = cast_onto_form(center, across, kReach).x;
     // Rays that point down must not reach over the gap under the jaw to the chest: `below` lies in that gap.
     const double drop = half_chord + glm::dot(center - middle, up);
-    const size_t first = points_.size();
-    points_.push_back(on_midline(top));
+    const size_t first = positions_.size();
+    positions_.push_back(top);
     for (int j = 1; j < columns_ / 2; ++j) {
       const double s = 2.0 * j / columns_;
-      const double angle = elementary::kPi * s * (0.75 + 0.25 * s);  // closer on the face than under jaw and chest
+      const double angle = elementary::kPi * s * (0.7 + 0.3 * s * s);  // closer on the face than under jaw and chest
       const Vec3 direction =
           glm::normalize(height * elementary::cos(angle) * up + width * elementary::sin(angle) * across);
       const double down = -glm::dot(direction, up);
-      points_.push_back(on_form(cast_onto_form(center, direction, down * kReach > drop ? drop / down : kReach)));
+      positions_.push_back(cast_onto_form(center, direction, down * kReach > drop ? drop / down : kReach));
     }
-    points_.push_back(on_midline(bottom));
-    for (int j = columns_ / 2 - 1; j >= 0; --j) {  // the mirror image of the other side
-      SurfacePoint p = points_[first + j];
-      p.position.x = -p.position.x;
-      p.normal.x = -p.normal.x;
-      points_.push_back(p);
-    }
+    positions_.push_back(bottom);
+    for (int j = columns_ / 2 - 1; j >= 0; --j) positions_.push_back(mirrored(positions_[first + j]));
   }
 
-  void add_tip(const Section& last) {
-    const Vec3 middle = from_outline(0.5 * (last.below + last.above));
+  // The end of the muzzle: from the last section's middle the rays lean forwards, row by row, until they meet.
+  void add_muzzle(const Section& last) {
+    constexpr double kReach = 0.12;
     const Vec2 chord = last.above - last.below;
-    const Vec3 forwards = glm::normalize(from_outline({chord.y, -chord.x}));
-    const SurfacePoint tip = on_midline(cast_onto_form(middle, forwards, 0.1));
-    points_.insert(points_.end(), columns_ + 1, tip);
+    tip_normal_ = glm::normalize(from_outline({chord.y, -chord.x}));
+    const size_t ring = positions_.size() - (columns_ + 1);
+    const Vec3 center = 0.5 * (positions_[ring] + positions_[ring + columns_ / 2]);
+    const int rows = muzzle_rows(detail_);
+    for (int row = 1; row < rows; ++row) {
+      const double lean = 0.5 * elementary::kPi * row / rows;
+      const size_t first = positions_.size();
+      for (int j = 0; j <= columns_ / 2; ++j) {
+        const Vec3 out = glm::normalize(positions_[ring + j] - center);
+        const Vec3 direction = elementary::cos(lean) * out + elementary::sin(lean) * tip_normal_;
+        positions_.push_back(cast_onto_form(center, direction, kReach));
+      }
+      for (int j = columns_ / 2 - 1; j >= 0; --j) positions_.push_back(mirrored(positions_[first + j]));
+    }
+    positions_.insert(positions_.end(), columns_ + 1, cast_onto_form(center, tip_normal_, kReach));
+  }
+
+  static Vec3 mirrored(const Vec3& v) { return Vec3(-v.x, v.y, v.z); }
+
+  const Vec3& position(int row, int column) const { return positions_[row * (columns_ + 1) + column]; }
+
+  // By differences between neighbours, not from the form: details finer than the grid are smoothed over, not aliased.
+  Vec3 normal_at(int row, int column) const {
+    const int last = static_cast<int>(positions_.size()) / (columns_ + 1) - 1;
+    const int left = (column + columns_ - 1) % columns_, right = column + 1;
+    const Vec3 across = position(row, right) - position(row, left);
+    const Vec3 along = position(std::min(row + 1, last), column) - position(std::max(row - 1, 0), column);
+    const Vec3 n = unit_or_zero(glm::cross(across, along));
+    return column % (columns_ / 2) == 0 ? unit_or_zero(Vec3(0.0, n.y, n.z)) : n;
+  }
+
+  void add_points() {
+    const int rows = static_cast<int>(positions_.size()) / (columns_ + 1);
+    points_.resize(positions_.size());
+    for (int row = 0; row < rows; ++row) {
+      SurfacePoint* const ring = points_.data() + row * (columns_ + 1);
+      for (int j = 0; j <= columns_ / 2; ++j) {
+        const Vec3 n = row == rows - 1 ? tip_normal_ : normal_at(row, j);
+        ring[j] = {position(row, j), n};
+        ring[columns_ - j] = {position(row, columns_ - j), j == columns_ / 2 ? n : mirrored(n)};
+      }
+    }
   }
 
   int columns_, detail_;
-  double normal_step_;
+  Vec3 tip_normal_{0.0};
+  std::vector<Vec3> positions_;  // rows of columns_ + 1, the last column repeating the first
   std::vector<SurfacePoint> points_;
 };
 

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/geometry/weld.h"
-
 namespace tilelight {
 namespace {
 
@@ -154,12 +152,12 @@ double head(const FormPoint& p) {
 }
 
 double eye_and_brow(const FormPoint& p, double d) {
-  const Ball socket{{0.117, 1.040, 0.180}, {0.050, 0.050, 0.072}};
-  const Ball eyeball{{0.058, 1.044, 0.178}, {0.034, 0.031, 0.041}};
-  const Rod brow{{0.054, 1.104, 0.124}, {0.050, 1.098, 0.184}, 0.026, 0.022};
+  const Ball socket{{0.122, 1.042, 0.180}, {0.050, 0.052, 0.074}};
+  const Ball eyeball{{0.055, 1.049, 0.181}, {0.034, 0.032, 0.042}};
+  const Rod brow{{0.052, 1.102, 0.124}, {0.048, 1.096, 0.184}, 0.026, 0.022};
   d = join(d, rod(p, brow), 0.050);
   d = carve(d, ball(p, socket), 0.055);
-  return join(d, ball(p, eyeball), 0.010);
+  return join(d, ball(p, eyeball), 0.012);
 }
 
 double mouth_and_nostril(const FormPoint& p, double d) {
@@ -191,14 +189,6 @@ double knight_form(const Vec3& point) {
   d = eye_and_brow(p, d);
   d = mouth_and_nostril(p, d);
   return p.up > 1.04 ? join(d, ear(p), 0.018) : d;
-}
-
-Vec3 knight_form_normal(const Vec3& p, double step) {
-  // Differences along the corners of a tetrahedron: four evaluations for the gradient.
-  Vec3 gradient(0.0);
-  for (const Vec3& corner : {Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, 1, 1)})
-    gradient += corner * knight_form(p + step * corner);
-  return unit_or_zero(gradient);
 }
 
 }  // namespace tilelight

@@ -10,8 +10,4 @@ namespace tilelight {
 // Negative inside; near the surface about the distance. Mirror-symmetric in x. Object space.
 double knight_form(const Vec3& p);
 
-// The unit normal of the form's surface near p, from differences over `step`: details finer than that are smoothed
-// over.
-Vec3 knight_form_normal(const Vec3& p, double step);
-
 }  // namespace tilelight

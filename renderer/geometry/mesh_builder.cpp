@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/geometry/mesh_builder.h"
 
+#include <cmath>
+
 #include "renderer/geometry/weld.h"
 
 namespace tilelight {
@@ -17,6 +19,15 @@ Vec3 facing(const Vec3& normal, const Vec3& facet) {
   return unit_or_zero(normal + (kMinCosine - cosine) * facet);
 }
 
+// Whether a quad is better cut from a to c than from b to d: along a ridge or groove, where the normals agree, and else
+// along the shorter diagonal.
+bool cuts_along_first(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c, const SurfacePoint& d) {
+  constexpr double kSameBend = 0.01;
+  const double first = glm::dot(a.normal, c.normal), second = glm::dot(b.normal, d.normal);
+  if (std::fabs(first - second) > kSameBend) return first > second;
+  return squared_distance(a.position, c.position) <= squared_distance(b.position, d.position);
+}
+
 }  // namespace
 
 void MeshBuilder::add_triangle(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
@@ -31,7 +42,7 @@ void MeshBuilder::add_grid(std::span<const SurfacePoint> points, int columns) {
       const SurfacePoint& b = points[row * columns + column + 1];
       const SurfacePoint& c = points[(row + 1) * columns + column + 1];
       const SurfacePoint& d = points[(row + 1) * columns + column];
-      if (squared_distance(a.position, c.position) <= squared_distance(b.position, d.position)) {
+      if (cuts_along_first(a, b, c, d)) {
         add_triangle(a, b, c);
         add_triangle(a, c, d);
       } else {

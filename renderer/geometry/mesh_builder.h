@@ -20,7 +20,7 @@ class MeshBuilder {
   void add_triangle(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c);
 
   // points[row * columns + column]; seen from outside, columns run to the right and rows run upwards. Quads are cut
-  // along the shorter diagonal.
+  // along ridges, else along the shorter diagonal.
   void add_grid(std::span<const SurfacePoint> points, int columns);
 
   TriMesh finish() const;
