@@ -77,7 +77,7 @@ TEST(Materials, TakeAmbientFromDiffuseItsCheckerToo) {
       R"({"type": "sphere", "material": {"diffuse": {"checker": {"a": 1, "b": [0.1, 0.2, 0.3], "size": 0.25}}}},
          {"type": "sphere", "material": {"diffuse": 0.3}},
          {"type": "sphere", "material": {"diffuse": 0.3, "ambient": 0.1}}, {"type": "sphere"})"));
-  const auto material = [&](size_t i) { return p.scene.materials[p.scene.objects[i].material]; };
+  const auto material = [&](size_t i) -> const Material& { return p.scene.materials[p.scene.objects[i].material]; };
   const auto& ambient = std::get<Checker>(material(0).ambient);
   EXPECT_EQ(ambient.a, Color(1.0));
   EXPECT_EQ(ambient.b, Color(0.1, 0.2, 0.3));
