@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of compile_scene: what they keep, what they leave out, and that they change nothing that is seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "renderer/compile/compiled_mesh.h"
+#include "renderer/compile/normalise.h"
+#include "renderer/compile/passes.h"
+#include "renderer/compile/compile.h"
+
+namespace tilelight {
+namespace {
+
+Material painted(const char* name, double grey) {
+  Material m;
+  m.name = name;
+  m.ambient = m.diffuse = Color(grey);
+  return m;
+}
+
+Object sphere_at(const Vec3& center, double radius, MaterialId material = 0) {
+  Object object;
+  object.shape = SphereShape{center, radius};
+  object.material = material;
+  return object;
+}
+
+Light sun(double intensity) {
+  Light light;
+  light.kind = LightKind::directional;
+  light.intensity = intensity;
+  return light;
+}
+
+Scene one_sphere() {
+  Scene scene;
+  scene.materials = {painted("", 0.8)};
+  scene.objects = {sphere_at({0, 1, 0}, 1)};
+  scene.lights = {sun(1.0)};
+  return scene;
+}
+
+bool says(const std::vector<LeftOut>& list, const std::string& what) {
+  return std::any_of(list.begin(), list.end(), [&](const LeftOut& item) { return item.what == what && !item.why.empty(); });
+}
+
+const LeftOutList& left_out_of(const CompiledScene& scene) { return scene_plan(scene).left_out; }
+
+class Compile : public testing::Test {
+ protected:
+  TilePool pool_{2};
+};
+
+TEST_F(Compile, DropsMaterialsThatNoObjectWears) {
+  Scene scene = one_sphere();
+  scene.materials.push_back(painted("unworn", 0.5));
+  const auto compiled = compile_scene(scene, pool_);
+  EXPECT_EQ(compiled->materials.size(), 1u);
+  EXPECT_TRUE(says(left_out_of(*compiled), "material unworn"));
+}
+
+TEST_F(Compile, DropsBlackLightsAndAllLightsWhereNothingReflects) {
+  Scene scene = one_sphere();
+  scene.lights.push_back(sun(0.0));
+  auto compiled = compile_scene(scene, pool_);
+  EXPECT_EQ(compiled->lights.size(), 1u);
+  EXPECT_TRUE(says(left_out_of(*compiled), "light lights/1"));
+
+  scene.materials[0].diffuse = Color(0.0);
+  compiled = compile_scene(scene, pool_);
+  EXPECT_TRUE(compiled->lights.empty());
+}
+
+TEST_F(Compile, EachFeatureOfASceneFlipsExactlyItsBit) {
+  const FeatureSet base = scene_plan(*compile_scene(one_sphere(), pool_)).features;
+  const auto flipped_by = [&](const std::function<void(Scene&)>& change) {
+    Scene scene = one_sphere();
+    change(scene);
+    return scene_plan(*compile_scene(scene, pool_)).features.bits() ^ base.bits();
+  };
+  const auto bit = [](Feature f) { return 1u << static_cast<uint32_t>(f); };
+  EXPECT_EQ(flipped_by([](Scene& s) { s.materials[0].reflection = Color(0.5); }), bit(Feature::reflection));
+  EXPECT_EQ(flipped_by([](Scene& s) { s.materials[0].specular = Color(0.5); }), bit(Feature::specular));
+  EXPECT_EQ(flipped_by([](Scene& s) { s.materials[0].diffuse = Checker{}; }), bit(Feature::checker));
+  EXPECT_EQ(flipped_by([](Scene& s) { s.lights[0].shadow = false; }), bit(Feature::shadows));
+  EXPECT_EQ(flipped_by([](Scene& s) { s.materials[0].transmission = Color(0.5); }),
+            bit(Feature::transmission) | bit(Feature::tinted_shadows));  // light falls through glass by definition
+  EXPECT_EQ(flipped_by([](Scene& s) {
+              Object plane;
+              plane.shape = PlaneShape{};
+              s.objects.push_back(plane);
+            }),
+            bit(Feature::planes));
+}
+
+TEST_F(Compile, AViewWithoutShadowsOrDepthNeedsALeanerKernel) {
+  Scene scene = one_sphere();
+  scene.materials[0].reflection = Color(0.5);
+  const auto compiled = compile_scene(scene, pool_);
+  View view;
+  EXPECT_EQ(plan_view(*compiled, view, "").variant, KernelVariant::mirrors_shadows);
+  view.render.max_depth = 0;
+  EXPECT_EQ(plan_view(*compiled, view, "").variant, KernelVariant::local_shadows);
+  view.render.shadows = false;
+  EXPECT_EQ(plan_view(*compiled, view, "").variant, KernelVariant::local);
+  EXPECT_TRUE(says(plan_view(*compiled, view, "").plan.left_out, "feature shadows"));
+}
+
+TEST_F(Compile, NormalisesTheSceneIntoTheUnitCubeByAPowerOfTwo) {
+  Scene scene = one_sphere();
+  scene.objects = {sphere_at({1e7 + 3, -7e6, 3e6}, 5), sphere_at({1e7 - 9, -7e6, 3e6}, 1)};
+  const auto compiled = compile_scene(scene, pool_);
+  EXPECT_EQ(compiled->units, 16.0);  // half the longest side is 9
+  for (const CompiledBody& body : compiled->bodies) {
+    const Box box = body_bounds(body);
+    EXPECT_GE(std::min({box.lo.x, box.lo.y, box.lo.z}), -1.0);
+    EXPECT_LE(std::max({box.hi.x, box.hi.y, box.hi.z}), 1.0);
+  }
+}
+
+TEST_F(Compile, InstancesOfAMeshShareItsGeometry) {
+  Scene scene = one_sphere();
+  Object rook;
+  rook.shape = ChessPieceShape{Piece::rook, Side::white, {0, 0, 0}, 16};
+  scene.objects = {rook, rook, rook};
+  const auto compiled = compile_scene(scene, pool_);
+  EXPECT_EQ(compiled->meshes.size(), 1u);
+  EXPECT_EQ(scene_plan(*compiled).triangles_instanced, 3 * scene_plan(*compiled).triangles_stored);
+}
+
+TEST_F(Compile, TheFramedCameraHoldsTheBoundingSphereInBothDirections) {
+  const auto compiled = compile_scene(one_sphere(), pool_);
+  for (const auto& [width, height] : {std::pair{1280, 720}, {300, 900}}) {
+    const Camera camera = framed_camera(*compiled, width, height);
+    const double distance = glm::length(camera.position - Vec3(0, 1, 0));
+    const double half_y = glm::radians(camera.fov_y_deg / 2);
+    const double half_x = std::atan(std::tan(half_y) * width / height);
+    EXPECT_NEAR(std::asin(1.05 / distance), std::min(half_x, half_y), 1e-9) << width << "x" << height;
+    const Vec3 away = (camera.position - camera.target) / distance;
+    EXPECT_NEAR(away.y, std::sin(glm::radians(25.0)), 1e-12);
+    EXPECT_NEAR(std::atan2(away.x, away.z), glm::radians(30.0), 1e-12);
+  }
+}
+
+TEST_F(Compile, TheRadianceBoundIsTheSumOfTheGeometricSeries) {
+  Scene scene = one_sphere();
+  scene.background = {Color(0.0), Color(0.0)};
+  scene.ambient = Color(0.5);
+  scene.materials[0].reflection = Color(0.5);
+  EXPECT_NEAR(compile_scene(scene, pool_)->radiance_bound, (0.5 * 0.8 + 1.0 * 0.8) / (1 - 0.5), 1e-12);
+  scene.materials[0].reflection = Color(1.0);
+  EXPECT_LT(compile_scene(scene, pool_)->radiance_bound, 0.0);  // none is finite
+}
+
+TEST_F(Compile, AnUpVectorAlongTheViewFallsBackToAnOrthonormalFrame) {
+  Camera camera;
+  camera.position = {0, 5, 0};
+  camera.up = {0, 1, 0};
+  EXPECT_TRUE(is_up_along_view(camera));
+  const Eye eye = make_eye(camera, 100, 100, Vec3(0.0), 1.0);
+  EXPECT_NEAR(glm::dot(glm::normalize(eye.step_x), glm::normalize(eye.step_y)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::dot(glm::normalize(eye.step_x), eye.forward), 0.0, 1e-12);
+  camera.up = {1e-8, 1, 0};
+  EXPECT_FALSE(is_up_along_view(camera));
+}
+
+// Every box of the input lies in every box on the way to its leaf.
+void expect_nested(const WideBvh& bvh, const std::vector<Box>& boxes, uint32_t node, std::vector<int>& seen) {
+  for (int c = 0; c < WideBvh::kWidth; ++c) {
+    const uint32_t child = bvh.nodes[node].child[c];
+    if (child == WideBvh::kEmpty) continue;
+    if (!(child & WideBvh::kLeafBit)) {
+      expect_nested(bvh, boxes, child, seen);
+      continue;
+    }
+    const WideBvh::Leaf leaf = bvh.leaves[child & ~WideBvh::kLeafBit];
+    for (uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+      ++seen[bvh.order[i]];
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(bvh.nodes[node].bounds[0][axis][c], boxes[bvh.order[i]].lo[axis]);
+        EXPECT_GE(bvh.nodes[node].bounds[1][axis][c], boxes[bvh.order[i]].hi[axis]);
+      }
+    }
+  }
+}
+
+TEST_F(Compile, TheTreeHoldsEveryBoxOnceAlsoWhenAllAreEqual) {
+  std::vector<Box> spread, equal(100'000);
+  for (int i = 0; i < 40'000; ++i) {
+    Box box;
+    const Vec3 p(std::fmod(i * 0.618, 2.0) - 1, std::fmod(i * 0.414, 2.0) - 1, std::fmod(i * 0.732, 2.0) - 1);
+    box.grow(p);
+    box.grow(p + Vec3(1e-3));
+    spread.push_back(box);
+  }
+  for (Box& box : equal) box.grow(Vec3(0.25)), box.grow(Vec3(0.5));
+  for (const auto* boxes : {&spread, &equal}) {
+    const WideBvh bvh = build_bvh(*boxes, 8, pool_);
+    std::vector<int> seen(boxes->size());
+    expect_nested(bvh, *boxes, 0, seen);
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(boxes->size()));
+    EXPECT_LE(bvh.depth, 64);
+  }
+}
+
+TEST_F(Compile, TheTreeIsTheSameOnAnyNumberOfThreads) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 60'000; ++i) {
+    Box box;
+    box.grow(Vec3(std::fmod(i * 0.618, 2.0) - 1, std::fmod(i * 0.414, 2.0) - 1, 0.0));
+    boxes.push_back(box);
+  }
+  TilePool one(1), seven(7);
+  EXPECT_EQ(build_bvh(boxes, 8, one).order, build_bvh(boxes, 8, seven).order);
+}
+
+}  // namespace
+}  // namespace tilelight

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ray kernels against closed forms and against the laws they promise: watertight, the same on every instruction set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "renderer/compile/compile.h"
+#include "renderer/trace/intersect.h"
+#include "renderer/trace/isa.h"
+#include "renderer/trace/trace_rays.h"
+
+namespace tilelight {
+namespace {
+
+// A closed mesh: an octahedron subdivided `levels` times onto the unit sphere.
+MeshData ball(int levels) {
+  MeshData mesh;
+  mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.indices = {2, 4, 0, 2, 0, 5, 2, 5, 1, 2, 1, 4, 3, 0, 4, 3, 5, 0, 3, 1, 5, 3, 4, 1};
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
+      const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
+      if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
+      return it->second;
+    };
+    std::vector<uint32_t> finer;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+      const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      for (const uint32_t v : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca}) finer.push_back(v);
+    }
+    mesh.indices = finer;
+  }
+  return mesh;
+}
+
+Scene scene_of(std::vector<Shape> shapes) {
+  Scene scene;
+  scene.materials.resize(1);
+  for (Shape& shape : shapes) {
+    Object object;
+    object.shape = shape;
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
+Hit closest(const CompiledScene& scene, const Ray& ray) {
+  const BoundedRay bounded{ray};
+  Hit hit;
+  trace_closest(scene, {&bounded, 1}, {&hit, 1});
+  return hit;
+}
+
+class TraceRays : public testing::Test {
+ protected:
+  void TearDown() override { (void)select_isa("auto"); }
+  TilePool pool_{2};
+};
+
+TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
+  for (const double far : {0.0, 1e2, 1e4, 1e7}) {
+    Scene scene = scene_of({MeshShape{0}});
+    scene.meshes = {ball(4)};
+    const MeshData& mesh = scene.meshes[0];
+    const auto compiled = compile_scene(scene, pool_);
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    int leaks = 0;
+    for (size_t i = 0; i < mesh.indices.size(); ++i) {
+      const Vec3 a = mesh.positions[mesh.indices[i]];
+      const Vec3 b = mesh.positions[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+      const Vec3 aim = i % 4 == 0 ? a : glm::mix(a, b, unit(random));
+      const Vec3 from = aim * (3.0 + far) + Vec3(unit(random), unit(random), unit(random));
+      // The compiled scene is normalised about the ball's own centre and radius.
+      const Vec3 o = (from - compiled->center) / compiled->units, p = (aim - compiled->center) / compiled->units;
+      leaks += !closest(*compiled, {o, glm::normalize(p - o), {}}).is_hit();
+    }
+    EXPECT_EQ(leaks, 0) << "of " << mesh.indices.size() << " rays from " << far << " away";
+  }
+}
+
+TEST_F(TraceRays, HitASphereWhereTheQuadraticSays) {
+  const auto compiled = compile_scene(scene_of({SphereShape{{0, 0, 0}, 1}}), pool_);
+  for (const double distance : {2.0, 1e3, 1e6}) {
+    for (const double b : {0.0, 0.3, 0.9, 0.999}) {
+      const Hit hit = closest(*compiled, {{b, 0, distance}, {0, 0, -1}, {}});
+      ASSERT_TRUE(hit.is_hit());
+      EXPECT_NEAR(hit.t, distance - std::sqrt(1 - b * b), 1e-12 * distance);
+    }
+    EXPECT_FALSE(closest(*compiled, {{1.0 + 1e-6, 0, distance}, {0, 0, -1}, {}}).is_hit());
+  }
+  EXPECT_NEAR(closest(*compiled, {{0, 0, 0}, {0, 0, -1}, {}}).t, 1.0, 1e-15);  // from inside
+}
+
+TEST_F(TraceRays, ABoxKeepsTheRaysThatRunInItsFaces) {
+  double t = 0.0;
+  uint32_t face = 0;
+  for (const double zero : {0.0, -0.0}) {
+    EXPECT_TRUE(intersect_box(Vec3(1.0), {{1.0, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, 0.0, t, face));
+    EXPECT_DOUBLE_EQ(t, 4.0);
+    EXPECT_FALSE(intersect_box(Vec3(1.0), {{1.0 + 1e-15, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, 0.0, t, face));
+  }
+  // Flat: hit once, from both sides.
+  EXPECT_TRUE(intersect_box({1, 0, 1}, {{0.2, 3, 0.1}, {0, -1, 0}}, kNone, 0.0, t, face));
+  EXPECT_DOUBLE_EQ(t, 3.0);
+  EXPECT_FALSE(intersect_box({1, 0, 1}, {{0.2, 0, 0.1}, {0, -1, 0}}, face, 0.0, t, face));
+}
+
+TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
+  const auto compiled = compile_scene(scene_of({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 aim(0.009 * (i - 100), 0.007 * (i - 90), 0.0), from(0.3, 0.2, 2.0);
+    const Hit hit = closest(*compiled, {from, glm::normalize(aim - from), {}});
+    ASSERT_TRUE(hit.is_hit());
+    EXPECT_EQ(compiled->bodies[hit.body].body, 0u);
+  }
+}
+
+TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
+  Scene scene = scene_of({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
+  scene.meshes = {ball(3)};
+  const auto compiled = compile_scene(scene, pool_);
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<BoundedRay> rays;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3 from(unit(random) * 2, unit(random) * 2, unit(random) * 2);
+    const Vec3 to(unit(random), unit(random), unit(random));
+    rays.push_back({{from, glm::normalize(to - from), {}}});
+  }
+  std::vector<Hit> expected(rays.size());
+  trace_closest(*compiled, rays, expected);
+  ASSERT_GE(available_isas().size(), 2u);
+  for (const std::string& isa : available_isas()) {
+    ASSERT_TRUE(select_isa(isa).has_value());
+    std::vector<Hit> hits(rays.size());
+    std::vector<uint8_t> is_blocked(rays.size());
+    trace_closest(*compiled, rays, hits);
+    trace_any(*compiled, rays, is_blocked);
+    int differing = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      differing += hits[i].t != expected[i].t || hits[i].body != expected[i].body || hits[i].prim != expected[i].prim;
+      differing += static_cast<bool>(is_blocked[i]) != expected[i].is_hit();
+    }
+    EXPECT_EQ(differing, 0) << isa;
+  }
+  EXPECT_FALSE(select_isa("MMX").has_value());
+}
+
+}  // namespace
+}  // namespace tilelight
