@@ -125,7 +125,7 @@ TEST(Limits, HoldTrianglesBeforeAndAfterInstancing) {
   EXPECT_EQ(error_of(scene_of(use + "," + use + "," + use, fits), "limit", limits).pointer, "/objects/2");
   EXPECT_EQ(error_of(scene_of(use, "\"meshes\": {\"a\": " + two + ", \"b\": " + two + "},"), "limit", limits).pointer,
             "/meshes/b");
-  limits.instanced_triangles = 100'000;
+  limits.instanced_triangles = 400'000;
   EXPECT_TRUE(parse_scene(scene_of(R"({"type": "chess_position", "detail": 16})"), limits));
   EXPECT_EQ(error_of(scene_of(R"({"type": "chess_position", "detail": 512})"), "limit", limits).pointer, "/objects/0");
   EXPECT_EQ(error_of(scene_of(R"({"type": "chess_piece", "piece": "queen", "detail": 512})"), "limit", limits).pointer,
