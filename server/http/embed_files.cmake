@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Writes OUT, a C++ file with the table of server/http/page_files.h: the files under WEB and the API's description.
 # cmake -DOUT=... -DWEB=... -DOPENAPI=... -P embed_files.cmake
-set(types html "text/html; charset=utf-8" css "text/css; charset=utf-8" js "text/javascript; charset=utf-8"
-          json application/json svg image/svg+xml png image/png)
+set(types html text/html css text/css js text/javascript json application/json svg image/svg+xml png image/png)
 
 # A table row {path, media type, etag, bytes} for a file.
 function(row file path media_type out)
@@ -29,6 +28,9 @@ foreach(file IN LISTS files)
   endif()
   math(EXPR at "${at} + 1")
   list(GET types ${at} media_type)
+  if(media_type MATCHES "^text/")
+    string(APPEND media_type "\; charset=utf-8")
+  endif()
   row(${WEB}/${file} "/${file}" "${media_type}" entry)
   string(APPEND data "${entry_data}")
   string(APPEND rows "    ${entry},\n")

@@ -23,10 +23,12 @@ Reply post_session(Services& services, const Request& request) {
   if (!slot) return ::tl::unexpected(slot.error());
   const CompiledPtr compiled = services.compiled.wait(body->scene, Priority::interactive, request.gone);
   if (!compiled) return problem(500, "internal", "the scene could not be compiled");
+  const ViewPlan plan = plan_view(*compiled, body->view);
+  // Later views are merged over what the client is told here, also where the scene left the camera to be found.
+  body->view.camera = plan.camera;
   const auto session = services.sessions.open(body->scene, compiled, body->view);
   if (!session) return busy(session.error().code, session.error().detail, 5);
   const std::string& id = (*session)->id();
-  const ViewPlan plan = plan_view(*compiled, body->view);
   return json_response(201, session_document(id, body->scene->parsed.scene_id, body->warnings, plan))
       .with("Location", "/v1/sessions/" + id)
       .with("Cache-Control", "no-store");
