@@ -6,8 +6,8 @@
 namespace tilelight::server {
 namespace {
 
-constexpr double kAnswerMs = 1'000.0;   // for the last answers to reach their clients
-constexpr int kFreeWorkers = 32;        // that never wait for a render, so that other requests are always answered
+constexpr double kAnswerMs = 1'000.0;  // for the last answers to reach their clients
+constexpr int kFreeWorkers = 32;       // that never wait for a render, so that other requests are always answered
 constexpr int64_t kSceneStoreBytes = int64_t{256} << 20;
 constexpr size_t kMaxRecords = 10'000;  // of jobs; the oldest ended ones go
 
@@ -61,18 +61,24 @@ App::App(Config config, const Clock& clock)
       sessions_(pool_, clock, config_.max_sessions),
       keys_(clock),
       waits_(config_.max_waiting),
-      services_{config_, log_,    metrics_, pool_,  scenes_,     *compiled_, *queue_,
-                *jobs_,  sessions_, keys_,    waits_, is_stopping_} {}
+      services_{config_, log_,   metrics_,  pool_, scenes_, *compiled_,
+                *queue_, *jobs_, sessions_, keys_, waits_,  is_stopping_} {}
 
 void App::add_gauges() {
-  metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.", [this] { return queue_->counts().queued; });
-  metrics_.gauge("tilelight_renders_running", "Renders that have started.", [this] { return queue_->counts().running; });
+  metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",
+                 [this] { return queue_->counts().queued; });
+  metrics_.gauge("tilelight_renders_running", "Renders that have started.",
+                 [this] { return queue_->counts().running; });
   metrics_.gauge("tilelight_jobs", "Jobs on record.", [this] { return static_cast<double>(jobs_->count()); });
   metrics_.gauge("tilelight_sessions", "Interactive sessions.", [this] { return sessions_.count(); });
-  metrics_.gauge("tilelight_scenes_stored", "Scenes stored by clients.", [this] { return static_cast<double>(scenes_.count()); });
-  metrics_.gauge("tilelight_scene_cache_bytes", "Memory of compiled scenes.", [this] { return static_cast<double>(compiled_->bytes()); });
-  metrics_.gauge("tilelight_waiting_slots_free", "Requests that may still wait.", [this] { return waits_.free(); });
-  metrics_.gauge("tilelight_http_connections", "Open connections.", [this] { return static_cast<double>(http_->connection_count()); });
+  metrics_.gauge("tilelight_scenes_stored", "Scenes stored by clients.",
+                 [this] { return static_cast<double>(scenes_.count()); });
+  metrics_.gauge("tilelight_scene_cache_bytes", "Memory of compiled scenes.",
+                 [this] { return static_cast<double>(compiled_->bytes()); });
+  metrics_.gauge("tilelight_requests_waiting", "Requests that wait for a render, a change or a frame.",
+                 [this] { return config_.max_waiting - waits_.free(); }); });
+  metrics_.gauge("tilelight_http_connections", "Open connections.",
+                 [this] { return static_cast<double>(http_->connection_count()); });
   metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
 }
 
@@ -87,7 +93,8 @@ void App::housekeep(std::stop_token stop) {
   std::mutex mutex;
   std::condition_variable_any never;
   std::unique_lock lock(mutex);
-  while (!never.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); })) sessions_.close_idle();
+  while (!never.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); }))
+    sessions_.close_idle();
 }
 
 void App::stop() {

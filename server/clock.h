@@ -14,8 +14,8 @@ using Steady = std::chrono::steady_clock;
 class Clock {
  public:
   virtual ~Clock() = default;
-  virtual double mono_ms() const = 0;    // never goes back; its zero means nothing
-  virtual int64_t wall_ms() const = 0;   // since 1970, UTC
+  virtual double mono_ms() const = 0;   // never goes back; its zero means nothing
+  virtual int64_t wall_ms() const = 0;  // since 1970, UTC
 };
 
 class SystemClock final : public Clock {

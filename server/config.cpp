@@ -114,7 +114,8 @@ Result<void> apply_file(Config& config, const std::string& path) {
   if (!members) return ::tl::unexpected(members.error());
   for (const auto& [key, value] : *members) {
     const Setting* setting = find_setting(with(key, '_', '-'));
-    if (!setting) return fail("unknown_name", path + ": there is no setting '" + key + "' (tilelightd --help names all)");
+    if (!setting)
+      return fail("unknown_name", path + ": there is no setting '" + key + "' (tilelightd --help names all)");
     if (auto done = apply(config, *setting, value, path + ": " + key); !done) return done;
   }
   return {};
@@ -124,16 +125,15 @@ Result<void> apply_environment(Config& config, const std::map<std::string, std::
   for (const auto& [name, value] : environment) {
     if (name.rfind("TILELIGHT_", 0) != 0 || name == "TILELIGHT_CONFIG") continue;
     const auto& all = settings();
-    const auto setting = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return environment_name(s) == name; });
+    const auto setting =
+        std::find_if(all.begin(), all.end(), [&](const Setting& s) { return environment_name(s) == name; });
     if (setting == all.end()) return fail("unknown_name", "the environment sets " + name + ", which is no setting");
     if (auto done = apply(config, *setting, value, name); !done) return done;
   }
   return {};
 }
 
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
-}
+bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0; }
 
 }  // namespace
 
@@ -186,7 +186,8 @@ Result<ConfigRequest> load_config(int argc, const char* const* argv,
   for (const Setting& setting : settings()) {
     const std::string flag = "--" + std::string(setting.name);
     if (setting.value_name.empty()) {
-      app.add_flag_callback(flag, [&] { flags.emplace_back(&setting, "true"); }, std::string(setting.help));
+      app.add_flag_callback(
+          flag, [&] { flags.emplace_back(&setting, "true"); }, std::string(setting.help));
     } else {
       app.add_option_function<std::string>(
              flag, [&](const std::string& value) { flags.emplace_back(&setting, value); }, std::string(setting.help))

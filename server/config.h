@@ -36,7 +36,7 @@ struct Config {
   // Not for operators: the server's patience, which tests shorten.
   double head_timeout_ms = 10'000.0;
   double drain_ms = 2'000.0;  // for running renders to end by themselves when the server stops
-  int max_waiting = 160;  // requests that wait for a render, a change or a frame
+  int max_waiting = 160;      // requests that wait for a render, a change or a frame
 };
 
 struct ConfigRequest {
@@ -46,7 +46,8 @@ struct ConfigRequest {
 };
 
 // Reads file, environment and flags. The error is a sentence for the operator.
-Result<ConfigRequest> load_config(int argc, const char* const* argv, const std::map<std::string, std::string>& environment);
+Result<ConfigRequest> load_config(int argc, const char* const* argv,
+                                  const std::map<std::string, std::string>& environment);
 
 // The process's environment as a map.
 std::map<std::string, std::string> process_environment();

@@ -36,7 +36,9 @@ int run(int argc, const char* const* argv) {
   (*app)->start();
   const Config& config = request->config;
   if (config.allow_open) {
-    (*app)->log().write(LogLevel::warn, "open", {{"host", config.host}, {"detail", "whoever reaches this address may render: there are no keys"}});
+    (*app)->log().write(
+        LogLevel::warn, "open",
+        {{"host", config.host}, {"detail", "whoever reaches this address may render: there are no keys"}});
   }
   std::printf("Tilelight is at %s\nHealth and metrics are at http://%s:%d/metrics\n", (*app)->url().c_str(),
               config.admin_host.c_str(), (*app)->admin_port());

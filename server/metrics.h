@@ -33,7 +33,7 @@ class Metrics {
     std::function<double()> read;
   };
 
-  mutable std::mutex mutex_;  // guards all below; never held while a gauge is read
+  mutable std::mutex mutex_;                                       // guards all below; never held while a gauge is read
   std::map<std::string, std::map<std::string, double>> counters_;  // name -> labels -> value
   std::vector<Gauge> gauges_;
   std::array<uint64_t, kBucketsMs.size() + 1> requests_{};  // the last: longer than all

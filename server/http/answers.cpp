@@ -3,16 +3,18 @@
 #include <cmath>
 #include <cstdio>
 
-#include "server/http/handlers.h"
 #include "server/http/documents.h"
+#include "server/http/handlers.h"
 
 namespace tilelight::server {
 
 ::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take() {
   if (free_.fetch_sub(1, std::memory_order_relaxed) > 0) return Slot(this);
   free_.fetch_add(1, std::memory_order_relaxed);
-  return busy("too_many_waiting", "as many requests wait for results as the server allows; ask again, or ask for a job "
-                                  "(Prefer: respond-async) and come back for it", 1);
+  return busy("too_many_waiting",
+              "as many requests wait for results as the server allows; ask again, or ask for a job "
+              "(Prefer: respond-async) and come back for it",
+              1);
 }
 
 double wait_seconds(const Request& request, double default_s) {

@@ -18,7 +18,8 @@ Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Json warnings_json(const std::vector<SceneWarning>& warnings) {
   Json out = Json::array();
-  for (const SceneWarning& w : warnings) out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
+  for (const SceneWarning& w : warnings)
+    out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
   return out;
 }
 
@@ -87,8 +88,16 @@ std::string report_csv(const RenderReport& report) {
       "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,truncation_bound,nonfinite\n";
   for (const ReportPoint& point : report.points) {
     // JSON's numbers are also CSV's: the shortest text that reads back to the same value.
-    const Json row = {point.pass,        point.spp,           point.elapsed_ms,     point.cpu_ms,           point.rays.primary,
-                      point.rays.shadow, point.rays.reflected, point.rays.refracted, point.truncation_bound, point.nonfinite};
+    const Json row = {point.pass,
+                      point.spp,
+                      point.elapsed_ms,
+                      point.cpu_ms,
+                      point.rays.primary,
+                      point.rays.shadow,
+                      point.rays.reflected,
+                      point.rays.refracted,
+                      point.truncation_bound,
+                      point.nonfinite};
     const std::string text = row.dump();
     out += text.substr(1, text.size() - 2) + "\n";
   }

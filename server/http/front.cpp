@@ -16,10 +16,10 @@ namespace tilelight::server {
 namespace {
 
 constexpr uint64_t kListenerId = 0, kWakeId = 1;
-constexpr int kTickMs = 250;                 // how often deadlines are looked at
-constexpr size_t kReadBytes = 64 << 10;      // at a time, so that one fast sender does not hold the loop
-constexpr double kLingerMs = 2'000.0;        // for a refused client to read its answer before the reset
-constexpr double kBodyBytesPerMs = 64.0;     // the slowest upload that is waited for, beside head_timeout_ms
+constexpr int kTickMs = 250;              // how often deadlines are looked at
+constexpr size_t kReadBytes = 64 << 10;   // at a time, so that one fast sender does not hold the loop
+constexpr double kLingerMs = 2'000.0;     // for a refused client to read its answer before the reset
+constexpr double kBodyBytesPerMs = 64.0;  // the slowest upload that is waited for, beside head_timeout_ms
 
 double now_ms() { return SystemClock().mono_ms(); }
 
@@ -189,18 +189,17 @@ void Front::handle_event(uint64_t id, uint32_t events) {
 }
 
 void Front::read_some(Connection& c) {
-  const size_t before = c.in.size();
-  // A body's declared length is bounded; its memory is taken as it arrives, not as it is declared.
-  c.in.resize(before + kReadBytes);
-  const ssize_t got = recv(c.fd, c.in.data() + before, kReadBytes, 0);
-  c.in.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
+  char bytes[kReadBytes];
+  const ssize_t got = recv(c.fd, bytes, sizeof bytes, 0);
   if (got == 0) return close_connection(c.id);
   if (got < 0) {
     if (errno != EAGAIN && errno != EINTR) close_connection(c.id);
     return;
   }
+  if (c.in.empty()) c.since_ms = now_ms(), c.deadline_ms = c.since_ms + options_.head_timeout_ms;
+  // A body's declared length is bounded, and its memory is taken as it arrives, not as it is declared.
+  c.in.append(bytes, static_cast<size_t>(got));
   buffered_bytes_ += got;
-  if (before == 0) c.since_ms = now_ms(), c.deadline_ms = c.since_ms + options_.head_timeout_ms;
   advance(c);
 }
 
@@ -235,7 +234,7 @@ void Front::hand_over(Connection& c) {
   exchange->head = std::move(c.head->text);
   exchange->body = c.in.substr(c.head->bytes, body_bytes);
   c.in.erase(0, end);
-  if (c.in.empty()) std::string().swap(c.in);  // gives a large body's memory back
+  if (c.in.empty()) std::string().swap(c.in);                 // gives a large body's memory back
   buffered_bytes_ -= static_cast<int64_t>(end - body_bytes);  // the body counts until it is answered
   c.head.reset();
   c.phase = Phase::serving;

@@ -37,9 +37,9 @@ struct FrontOptions {
   HeadLimits limits;
   size_t max_connections = 4096;
   int64_t max_buffered_bytes = int64_t{256} << 20;  // of bodies, all connections together
-  double head_timeout_ms = 10'000.0;  // from a request's first byte to the end of its head
-  double idle_timeout_ms = 60'000.0;  // between requests
-  double write_timeout_ms = 20'000.0; // without progress
+  double head_timeout_ms = 10'000.0;                // from a request's first byte to the end of its head
+  double idle_timeout_ms = 60'000.0;                // between requests
+  double write_timeout_ms = 20'000.0;               // without progress
 };
 
 class Front {

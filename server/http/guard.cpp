@@ -42,8 +42,9 @@ bool is_json(std::string_view content_type) {
 ::tl::expected<void, Problem> check_guard(const Request& request, const Config& config) {
   const std::string_view host = request.header("Host").value_or("");
   if (!host.empty() && !is_own_host(host, config)) {
-    return problem(421, "misdirected", "this server does not answer for the host '" + std::string(host.substr(0, 100)) +
-                                           "'; start it with --allowed-hosts to make it");
+    return problem(421, "misdirected",
+                   "this server does not answer for the host '" + std::string(host.substr(0, 100)) +
+                       "'; start it with --allowed-hosts to make it");
   }
   const bool changes_state = request.method != "GET" && request.method != "OPTIONS";
   if (!changes_state) return {};
@@ -55,8 +56,9 @@ bool is_json(std::string_view content_type) {
   if (request.body.empty()) return {};
   const auto type = request.header("Content-Type");
   if (!type || !is_json(*type)) {
-    return problem(415, "content_type", "send the body as Content-Type: application/json" +
-                                            (type ? "; found " + std::string(type->substr(0, 100)) : std::string()));
+    return problem(415, "content_type",
+                   "send the body as Content-Type: application/json" +
+                       (type ? "; found " + std::string(type->substr(0, 100)) : std::string()));
   }
   return {};
 }

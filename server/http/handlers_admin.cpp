@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/handlers.h"
 #include "server/http/documents.h"
+#include "server/http/handlers.h"
 
 namespace tilelight::server {
 namespace {

@@ -21,7 +21,9 @@ constexpr double kImageWaitS = 30.0;
 
 Reply partial_image(Services& services, const RenderWork& work, ImageFormat format) {
   const auto image = work.image();
-  if (!image) return problem(409, "not_ready", "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
+  if (!image)
+    return problem(409, "not_ready",
+                   "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
   const double exposure = work.request().view.image.exposure;
   auto encoded =
       services.pool.submit(work.request().priority, [&] { return encode_tagged(*image, exposure, format); }).get();
@@ -31,8 +33,11 @@ Reply partial_image(Services& services, const RenderWork& work, ImageFormat form
 
 // Known before rendering: the same scene, view and version give the same bytes.
 std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageFormat format) {
-  return "\"" + sha256_hex(scene->parsed.scene_id + ";" + view_fingerprint(view) + ";" +
-                           std::string(image_format_name(format)) + ";" TILELIGHT_VERSION).substr(0, 32) + "\"";
+  return "\"" +
+         sha256_hex(scene->parsed.scene_id + ";" + view_fingerprint(view) + ";" +
+                    std::string(image_format_name(format)) + ";" TILELIGHT_VERSION)
+             .substr(0, 32) +
+         "\"";
 }
 
 }  // namespace
@@ -49,7 +54,8 @@ Reply get_render_image(Services& services, const Request& request) {
   if (state != JobState::done) {
     if (wants_partial) return partial_image(services, *work, *format);
     const std::string name(job_state_name(state));
-    return problem(409, is_final(state) ? name : "not_ready", "the render is " + name + (is_final(state) ? "" : "; ?partial=1 shows what there is"));
+    return problem(409, is_final(state) ? name : "not_ready",
+                   "the render is " + name + (is_final(state) ? "" : "; ?partial=1 shows what there is"));
   }
   auto image = work->encoded(*format, services.pool);
   if (!image) {
@@ -70,8 +76,9 @@ Reply get_scene_image(Services& services, const Request& request) {
   auto view = read_view_query(request, scene->parsed.view, services.config.limits);
   if (!view) return ::tl::unexpected(view.error());
   if (view->render.time_ms) {
-    return problem(422, "time_ms", "this scene stops by time, so its picture has no name to be cached under; ask POST "
-                                   "/v1/renders for it");
+    return problem(422, "time_ms",
+                   "this scene stops by time, so its picture has no name to be cached under; ask POST "
+                   "/v1/renders for it");
   }
   const auto format = image_format_for(request, ImageFormat::png);
   if (!format) return ::tl::unexpected(format.error());

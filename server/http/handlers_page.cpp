@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "renderer/base/hash.h"
+#include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/page_files.h"
-#include "server/http/documents.h"
 
 namespace tilelight::server {
 namespace {
@@ -15,7 +15,8 @@ constexpr const char* kContentSecurityPolicy =
 
 const EmbeddedFile* find_page_file(std::string_view path) {
   if (path == "/") path = "/index.html";
-  const auto file = std::find_if(kPageFiles.begin(), kPageFiles.end(), [&](const EmbeddedFile& f) { return f.path == path; });
+  const auto file =
+      std::find_if(kPageFiles.begin(), kPageFiles.end(), [&](const EmbeddedFile& f) { return f.path == path; });
   return file == kPageFiles.end() ? nullptr : &*file;
 }
 

@@ -2,9 +2,9 @@
 #include <charconv>
 
 #include "renderer/base/hash.h"
+#include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
-#include "server/http/documents.h"
 
 namespace tilelight::server {
 namespace {
@@ -12,8 +12,9 @@ namespace {
 constexpr double kImageWaitS = 30.0;
 
 ::tl::unexpected<Problem> no_such_render() {
-  return problem(404, "no_such_render", "no render with this id is known; it may have been deleted, or so many came after "
-                                        "it that its record was dropped");
+  return problem(404, "no_such_render",
+                 "no render with this id is known; it may have been deleted, or so many came after "
+                 "it that its record was dropped");
 }
 
 // What the client wants for an answer.
@@ -198,7 +199,8 @@ Reply get_render_pixel(Services& services, const Request& request) {
   const auto sample = request.param("sample") ? number_param(request, "sample") : std::optional<int64_t>(0);
   if (!x || !y || !sample || *sample < 0 || *sample >= services.config.limits.samples || *x < 0 || *y < 0 ||
       *x >= work->request().view.image.width || *y >= work->request().view.image.height) {
-    return problem(422, "out_of_range", "x and y must name a pixel of the image, sample (0 if absent) one of its samples");
+    return problem(422, "out_of_range",
+                   "x and y must name a pixel of the image, sample (0 if absent) one of its samples");
   }
   auto slot = services.waits.take();
   if (!slot) return ::tl::unexpected(slot.error());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
-#include "server/http/documents.h"
 
 namespace tilelight::server {
 namespace {

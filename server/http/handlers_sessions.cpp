@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
 
+#include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
-#include "server/http/documents.h"
 
 namespace tilelight::server {
 namespace {
@@ -11,7 +11,8 @@ namespace {
 constexpr double kFrameWaitS = 25.0;  // under the half minute after which proxies give up
 
 ::tl::unexpected<Problem> no_such_session() {
-  return problem(404, "no_such_session", "no session with this id is open; sessions end after five minutes without use");
+  return problem(404, "no_such_session",
+                 "no session with this id is open; sessions end after five minutes without use");
 }
 
 }  // namespace
@@ -39,6 +40,9 @@ Reply put_session_view(Services& services, const Request& request) {
   if (!session) return no_such_session();
   auto body = read_view_body(request.body, session->base_view(), services.config.limits);
   if (!body) return ::tl::unexpected(body.error());
+  if (!services.sessions.reserve(session->id(), body->view.image)) {
+    return busy("too_many_pixels", "the views of all sessions together have as many pixels as they may", 5);
+  }
   session->set_view(body->seq, std::move(body->view), body->is_moving);
   return empty_response(204);
 }
@@ -61,7 +65,9 @@ Reply get_session_frame(Services& services, const Request& request) {
   if (!frame && session->is_closed()) return problem(410, "session_closed", "the session was closed");
   if (!frame) return empty_response(204).with("Cache-Control", "no-store");
   const auto start = Steady::now();
-  auto encoded = services.pool.submit(Priority::interactive, [&] { return encode_tagged(*frame->image, frame->exposure, format); }).get();
+  auto encoded =
+      services.pool.submit(Priority::interactive, [&] { return encode_tagged(*frame->image, frame->exposure, format); })
+          .get();
   if (!encoded) return problem(500, "internal", "the frame could not be encoded");
   services.metrics.add("tilelight_session_frames_total", "");
   char timing[96];

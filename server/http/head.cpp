@@ -49,7 +49,8 @@ std::string_view trim(std::string_view text) {
   if (target.size() > limits.target_bytes) {
     return problem(414, "uri_too_long", "path and query may take " + std::to_string(limits.target_bytes) + " bytes");
   }
-  const bool printable = std::all_of(target.begin(), target.end(), [](unsigned char c) { return c > 0x20 && c != 0x7f; });
+  const bool printable =
+      std::all_of(target.begin(), target.end(), [](unsigned char c) { return c > 0x20 && c != 0x7f; });
   if (target.empty() || target.front() != '/' || !printable) return bad("the target must be a path that begins with /");
   return {};
 }
@@ -68,8 +69,8 @@ class FieldReader {
       return bad("a header line is not 'name: value'");
     }
     const std::string_view name = line.substr(0, colon), value = trim(line.substr(colon + 1));
-    const bool clean = std::all_of(value.begin(), value.end(),
-                                   [](unsigned char c) { return c == '\t' || (c >= 0x20 && c != 0x7f); });
+    const bool clean =
+        std::all_of(value.begin(), value.end(), [](unsigned char c) { return c == '\t' || (c >= 0x20 && c != 0x7f); });
     if (!clean) return bad("the header " + std::string(name) + " holds a control character");
     const bool is_dropped = std::any_of(std::begin(kDropped), std::end(kDropped),
                                         [&](std::string_view dropped) { return same(name, dropped); });
@@ -89,9 +90,8 @@ class FieldReader {
       return problem(411, "length_required", "send Content-Length; chunked bodies are not accepted");
     }
     if (same(name, "content-encoding") && !same(value, "identity")) {
-      return problem(415, "content_encoding", "send the body unencoded; Content-Encoding " + std::string(value) +
-                                                  " is not accepted")
-          ;
+      return problem(415, "content_encoding",
+                     "send the body unencoded; Content-Encoding " + std::string(value) + " is not accepted");
     }
     if (same(name, "expect")) {
       if (!same(value, "100-continue")) return problem(417, "expectation", "only Expect: 100-continue is understood");
@@ -102,12 +102,14 @@ class FieldReader {
   }
 
   ::tl::expected<void, Problem> note_length(std::string_view value) {
-    const bool digits = !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) { return std::isdigit(c); });
+    const bool digits =
+        !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) { return std::isdigit(c); });
     if (!digits || lengths_++ > 0) return bad("Content-Length must be one whole number");
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), head_.body_bytes);
     if (error == std::errc::result_out_of_range || head_.body_bytes > limits_.body_bytes) {
-      return problem(413, "limit", "a body may have " + std::to_string(limits_.body_bytes) +
-                                       " bytes (limit bytes); this one declares " + std::string(value));
+      return problem(413, "limit",
+                     "a body may have " + std::to_string(limits_.body_bytes) +
+                         " bytes (limit bytes); this one declares " + std::string(value));
     }
     return {};
   }

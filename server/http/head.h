@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // scan_head: finds and checks the head of a request in the bytes received so far (RFC 9112), before anything else of
-// the server sees it. Strict where leniency lets two readers of the same bytes disagree about where a request ends. Pure.
+// the server sees it. Strict where leniency lets two readers of the same bytes disagree about where a request ends.
+// Pure.
 #pragma once
 
 #include <cstdint>

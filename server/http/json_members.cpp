@@ -6,6 +6,8 @@
 namespace tilelight::server {
 namespace {
 
+constexpr size_t kMaxMembers = 256;  // what wraps a scene has half a dozen
+
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 class Scanner {
@@ -57,7 +59,9 @@ class Scanner {
  private:
   bool skip_scalar() {
     const size_t begin = at_;
-    while (!at_end() && !is_space(text_[at_]) && std::string_view(",:]}[{\"").find(text_[at_]) == std::string_view::npos) ++at_;
+    while (!at_end() && !is_space(text_[at_]) &&
+           std::string_view(",:]}[{\"").find(text_[at_]) == std::string_view::npos)
+      ++at_;
     return at_ > begin;
   }
 
@@ -67,7 +71,8 @@ class Scanner {
 
 std::string blank(std::string_view text) {
   std::string out(text);
-  std::replace_if(out.begin(), out.end(), [](char c) { return c != '\n' && c != '\r'; }, ' ');
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return c != '\n' && c != '\r'; }, ' ');
   return out;
 }
 
@@ -94,6 +99,7 @@ std::optional<std::vector<JsonMember>> scan_members(std::string_view text) {
     if (!scan.skip_value()) return std::nullopt;
     member.end = scan.at();
     member.value = text.substr(value, member.end - value);
+    if (members.size() == kMaxMembers) return std::nullopt;
     members.push_back(member);
     scan.skip_space();
     more = scan.take(',');

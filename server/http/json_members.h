@@ -11,13 +11,13 @@
 namespace tilelight::server {
 
 struct JsonMember {
-  std::string_view key;    // between its quotes, escapes as written
-  std::string_view value;  // trimmed
+  std::string_view key;       // between its quotes, escapes as written
+  std::string_view value;     // trimmed
   size_t begin = 0, end = 0;  // of the member in the text: from the key's quote to the value's end
 };
 
-// Nothing if the text is not an object or its outline is broken; the scene parser then says where. What is inside the
-// values is not checked.
+// Nothing if the text is not an object, its outline is broken or it has over 256 members; it can then only be a scene,
+// and the scene's parser judges it. What is inside the values is not checked.
 std::optional<std::vector<JsonMember>> scan_members(std::string_view text);
 
 // The text with all but the named members blanked out, so that every place in it stays where it was.

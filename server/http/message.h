@@ -30,10 +30,10 @@ struct Request {
   std::string path;    // percent-decoded, without the query
   std::multimap<std::string, std::string> query;
   std::multimap<std::string, std::string, CaseLess> headers;
-  std::string_view body;   // lives as long as the request
-  std::string client;      // the peer's address
-  std::string id;          // names the request in the log and in problems
-  std::stop_token gone;    // requested when the client closes its connection
+  std::string_view body;          // lives as long as the request
+  std::string client;             // the peer's address
+  std::string id;                 // names the request in the log and in problems
+  std::stop_token gone;           // requested when the client closes its connection
   std::vector<std::string> args;  // what the route's {names} matched
 
   // The first value, or nothing.
@@ -61,7 +61,9 @@ struct Response {
   }
 };
 
-inline Response json_response(int status, std::string body) { return {status, {}, "application/json", std::move(body)}; }
+inline Response json_response(int status, std::string body) {
+  return {status, {}, "application/json", std::move(body)};
+}
 inline Response empty_response(int status) { return {status, {}, "", ""}; }
 
 // What is wrong, as RFC 9457 says it.

@@ -15,7 +15,8 @@ std::string_view trim(std::string_view text) {
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -43,7 +44,8 @@ std::vector<MediaRange> accepted(const Request& request) {
     range.type = trim(std::string_view(text).substr(0, at));
     while (at != std::string::npos) {
       const size_t next = text.find(';', at + 1);
-      const std::string_view parameter = trim(std::string_view(text).substr(at + 1, next == std::string::npos ? next : next - at - 1));
+      const std::string_view parameter =
+          trim(std::string_view(text).substr(at + 1, next == std::string::npos ? next : next - at - 1));
       if (parameter.rfind("q=", 0) == 0) {
         double quality = 0.0;
         std::from_chars(parameter.data() + 2, parameter.data() + parameter.size(), quality);

@@ -25,7 +25,9 @@ std::string join(const std::vector<std::string>& words) {
 class MemberErrors {
  public:
   void add(std::string_view key, std::string code, std::string detail, std::vector<std::string> allowed = {}) {
-    errors_.errors.push_back({"/" + std::string(key), std::move(code), std::move(detail), std::move(allowed), "", 0, 0});
+    if (errors_.errors.size() == kMaxErrors) return;
+    errors_.errors.push_back(
+        {"/" + std::string(key), std::move(code), std::move(detail), std::move(allowed), "", 0, 0});
   }
   // Every key is known and none comes twice.
   void check_keys(const std::vector<JsonMember>& members, const std::vector<std::string>& known) {
@@ -43,6 +45,8 @@ class MemberErrors {
   ::tl::unexpected<Problem> problem() const { return scene_problem(errors_); }
 
  private:
+  static constexpr size_t kMaxErrors = 32;  // a short request must not make a long answer
+
   SceneErrors errors_;
 };
 
@@ -81,7 +85,8 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
 }
 
 // The scene that the member names by id or holds.
-::tl::expected<ScenePtr, Problem> read_scene_member(Services& services, std::string_view body, const JsonMember& member) {
+::tl::expected<ScenePtr, Problem> read_scene_member(Services& services, std::string_view body,
+                                                    const JsonMember& member) {
   if (member.value.front() == '{') {
     auto scene = parse_whole(keep_value(body, member), services.config.limits, "/scene");
     return scene;
@@ -94,8 +99,9 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
   }
   ScenePtr scene = services.scenes.find(std::string(*id));
   if (!scene) {
-    errors.add("scene", "unknown_scene", "no scene '" + std::string(id->substr(0, 80)) +
-                                             "' is stored (any more); store it with POST /v1/scenes or send it along");
+    errors.add("scene", "unknown_scene",
+               "no scene '" + std::string(id->substr(0, 80)) +
+                   "' is stored (any more); store it with POST /v1/scenes or send it along");
     return errors.problem();
   }
   return scene;
@@ -178,7 +184,8 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   }
   if (const JsonMember* moving = find_member(*members, "moving")) {
     out.is_moving = moving->value == "true";
-    if (!out.is_moving && moving->value != "false") errors.add("moving", "wrong_type", "'moving' must be true or false");
+    if (!out.is_moving && moving->value != "false")
+      errors.add("moving", "wrong_type", "'moving' must be true or false");
   }
   if (!errors.empty()) return errors.problem();
   auto view = parse_view(keep_members(body, *members, {std::begin(kViewKeys), std::end(kViewKeys)}), base, limits);
@@ -192,15 +199,17 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
     const char *name, *group;
     bool is_vector;
   };
-  static constexpr Param kParams[] = {{"position", "camera", true},   {"target", "camera", true}, {"up", "camera", true},
-                                      {"fov_y_deg", "camera", false}, {"width", "image", false},  {"height", "image", false},
-                                      {"exposure", "image", false},   {"samples", "render", false}};
+  static constexpr Param kParams[] = {{"position", "camera", true}, {"target", "camera", true},
+                                      {"up", "camera", true},       {"fov_y_deg", "camera", false},
+                                      {"width", "image", false},    {"height", "image", false},
+                                      {"exposure", "image", false}, {"samples", "render", false}};
   std::map<std::string, std::string> groups;
   std::vector<std::string> names;
   for (const Param& param : kParams) names.emplace_back(param.name);
   MemberErrors errors;
   for (const auto& [name, text] : request.query) {
-    const auto param = std::find_if(std::begin(kParams), std::end(kParams), [&](const Param& p) { return name == p.name; });
+    const auto param =
+        std::find_if(std::begin(kParams), std::end(kParams), [&](const Param& p) { return name == p.name; });
     if (param == std::end(kParams) || request.query.count(name) > 1) {
       errors.add(name, param == std::end(kParams) ? "unknown_key" : "duplicate_key",
                  "query parameters, each at most once: " + join(names), names);

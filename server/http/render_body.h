@@ -35,8 +35,9 @@ struct ViewBody {
 };
 ::tl::expected<ViewBody, Problem> read_view_body(std::string_view body, const View& base, const Limits& limits);
 
-// A view from the query of a picture's address: position=4,5,9&target=..&up=..&fov_y_deg=..&width=..&height=..&samples=..
-// &exposure=... Errors point into the view that the query spells: /camera/position.
+// A view from the query of a picture's address:
+// position=4,5,9&target=..&up=..&fov_y_deg=..&width=..&height=..&samples=.. &exposure=... Errors point into the view
+// that the query spells: /camera/position.
 ::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits);
 
 }  // namespace tilelight::server

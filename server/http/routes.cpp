@@ -90,7 +90,8 @@ Routed route_guarded(Services& services, const std::vector<Route>& routes, Reque
   try {
     return route(services, routes, request);
   } catch (const std::exception& bug) {
-    services.log.write(LogLevel::error, "bug", {{"id", request.id}, {"path", request.path}, {"what", std::string(bug.what())}});
+    services.log.write(LogLevel::error, "bug",
+                       {{"id", request.id}, {"path", request.path}, {"what", std::string(bug.what())}});
     return {problem(500, "internal", "the server made a mistake; its log has a line with this request_id")};
   }
 }

@@ -36,7 +36,7 @@ class IdempotencyKeys {
   void drop_old();  // REQUIRES: mutex_
 
   const Clock& clock_;
-  std::mutex mutex_;  // guards the rest
+  std::mutex mutex_;          // guards the rest
   std::list<Entry> entries_;  // oldest first
   std::map<std::pair<std::string, std::string>, std::list<Entry>::iterator> by_name_;
 };

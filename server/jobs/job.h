@@ -41,7 +41,7 @@ struct RenderRequest {
   View view;
   ImageFormat format = ImageFormat::png;  // in which the result is encoded before it is called done
   Priority priority = Priority::normal;
-  std::vector<SceneWarning> warnings;     // of the scene and of the view
+  std::vector<SceneWarning> warnings;  // of the scene and of the view
   double parse_ms = 0.0;
 };
 

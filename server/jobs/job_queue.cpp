@@ -4,6 +4,17 @@
 #include <algorithm>
 
 namespace tilelight::server {
+namespace {
+
+// A running render's sums and the image of its passes so far.
+int64_t film_bytes(const RenderRequest& request) {
+  return int64_t{request.view.image.width} * request.view.image.height * 2 * 3 * static_cast<int64_t>(sizeof(float));
+}
+
+// A scene's document and what was parsed from it, about.
+int64_t scene_bytes(const RenderRequest& request) { return 3 * static_cast<int64_t>(request.scene->text.size()); }
+
+}  // namespace
 
 WorkLease& WorkLease::operator=(WorkLease&& other) noexcept {
   if (this != &other) {
@@ -49,6 +60,10 @@ Result<WorkLease> JobQueue::submit(RenderRequest request) {
       if (must_wait && queued_count() >= options_.max_queue) {
         return fail("queue_full", "the render queue holds " + std::to_string(queued_count()) + " renders, its limit");
       }
+      if (scene_bytes_ + scene_bytes(request) > options_.max_scene_bytes) {
+        return fail("queue_full", "the scenes of the renders in the queue take the memory that they may take");
+      }
+      scene_bytes_ += scene_bytes(request);
       work = std::make_shared<RenderWork>(std::move(request), key, clock_.wall_ms());
       step_start_[work.get()] = Steady::now();
       in_flight_[key] = work;
@@ -62,8 +77,12 @@ Result<WorkLease> JobQueue::submit(RenderRequest request) {
   return lease;
 }
 
-int JobQueue::queued_count() const {
-  return static_cast<int>(lanes_[0].queued.size() + lanes_[1].queued.size());
+int JobQueue::queued_count() const { return static_cast<int>(lanes_[0].queued.size() + lanes_[1].queued.size()); }
+
+// A render whose film would not fit waits until it does, or until it has the lane for itself.
+bool JobQueue::has_slot(const Lane& lane) const {
+  if (lane.queued.empty() || lane.running >= lane.max_running) return false;
+  return lane.running == 0 || film_bytes_ + film_bytes(lane.queued.front()->request()) <= options_.max_film_bytes;
 }
 
 JobQueue::Counts JobQueue::counts() const {
@@ -76,8 +95,9 @@ void JobQueue::start_next() {
   {
     const std::lock_guard lock(mutex_);
     for (Lane& lane : lanes_) {
-      while (!lane.queued.empty() && lane.running < lane.max_running) {
+      while (has_slot(lane)) {
         ++lane.running;
+        film_bytes_ += film_bytes(lane.queued.front()->request());
         running_.insert(lane.queued.front());
         ready.push_back(std::move(lane.queued.front()));
         lane.queued.pop_front();
@@ -96,13 +116,14 @@ void JobQueue::start(const WorkPtr& work) {
     step_start_[work.get()] = now;
   }
   work->set_running(clock_.wall_ms(), queue_ms);
-  compiled_->get(work->request().scene, work->request().priority, [self = shared_from_this(), work](CompiledPtr compiled) {
-    try {
-      self->begin_render(work, compiled);
-    } catch (const std::exception& bug) {
-      self->fail_work(work, bug.what());
-    }
-  });
+  compiled_->get(work->request().scene, work->request().priority,
+                 [self = shared_from_this(), work](CompiledPtr compiled) {
+                   try {
+                     self->begin_render(work, compiled);
+                   } catch (const std::exception& bug) {
+                     self->fail_work(work, bug.what());
+                   }
+                 });
 }
 
 void JobQueue::begin_render(const WorkPtr& work, const CompiledPtr& compiled) {
@@ -145,14 +166,16 @@ void JobQueue::conclude(const WorkPtr& work) {
   const WorkStatus status = work->status();
   if (status.progress.state == RenderState::cancelled) return end(work, JobState::cancelled, "");
   if (status.progress.state == RenderState::failed) return fail_work(work, status.progress.error);
-  if (auto encoded = work->encode_here(work->request().format); !encoded) return fail_work(work, encoded.error().detail);
+  if (auto encoded = work->encode_here(work->request().format); !encoded)
+    return fail_work(work, encoded.error().detail);
   end(work, JobState::done, "");
 }
 
 void JobQueue::fail_work(const WorkPtr& work, std::string_view cause) {
   log_.write(LogLevel::error, "render_failed",
              {{"scene", work->request().scene->parsed.scene_id}, {"key", work->key()}, {"cause", std::string(cause)}});
-  end(work, JobState::failed, "the render failed inside the server; its log line has the key " + work->key().substr(0, 16));
+  end(work, JobState::failed,
+      "the render failed inside the server; its log line has the key " + work->key().substr(0, 16));
 }
 
 void JobQueue::end(const WorkPtr& work, JobState state, std::string error) {
@@ -163,7 +186,11 @@ void JobQueue::end(const WorkPtr& work, JobState state, std::string error) {
       in_flight_.erase(known);
     }
     was_running = running_.count(work) != 0;
-    if (was_running) --lane(work->request().priority).running;
+    if (was_running) {
+      --lane(work->request().priority).running;
+      film_bytes_ -= film_bytes(work->request());
+    }
+    scene_bytes_ -= scene_bytes(work->request());
     step_start_.erase(work.get());
   }
   const WorkStatus status = work->status();
@@ -207,7 +234,7 @@ void JobQueue::release(const WorkPtr& work) {
     holders_.erase(held);
     const auto known = in_flight_.find(work->key());
     if (known == in_flight_.end() || known->second != work) return;  // it has ended
-    in_flight_.erase(known);  // nobody joins what is about to stop
+    in_flight_.erase(known);                                         // nobody joins what is about to stop
     auto& queued = lane(work->request().priority).queued;
     const auto place = std::find(queued.begin(), queued.end(), work);
     was_queued = place != queued.end();

@@ -44,6 +44,9 @@ class JobQueue : public std::enable_shared_from_this<JobQueue> {
     // normal render overtake a large one by fair share, at the price of a film each.
     int max_running_normal = 8;
     int max_running_batch = 2;
+    // Whatever their number: memory of the films of running renders, and of the scenes of all that are in the queue.
+    int64_t max_film_bytes = int64_t{1} << 30;
+    int64_t max_scene_bytes = int64_t{1} << 30;
   };
   struct Counts {
     int queued = 0, running = 0;
@@ -76,13 +79,14 @@ class JobQueue : public std::enable_shared_from_this<JobQueue> {
 
   void release(const WorkPtr& work);
   void start_next();
-  int queued_count() const;  // REQUIRES: mutex_
 
   struct Lane {  // of a priority class
     std::deque<WorkPtr> queued;
     int running = 0;
     int max_running = 0;
   };
+  int queued_count() const;               // REQUIRES: mutex_
+  bool has_slot(const Lane& lane) const;  // for the first of its queue; REQUIRES: mutex_
   Lane& lane(Priority priority) { return lanes_[priority == Priority::batch ? 1 : 0]; }
 
   TilePool& pool_;
@@ -95,10 +99,11 @@ class JobQueue : public std::enable_shared_from_this<JobQueue> {
   mutable std::mutex mutex_;  // guards the rest
   std::condition_variable idle_;
   Lane lanes_[2];
-  std::set<WorkPtr> running_;  // keeps them alive until they have ended
+  std::set<WorkPtr> running_;                           // keeps them alive until they have ended
   std::unordered_map<std::string, WorkPtr> in_flight_;  // by key: what a new request may join
   std::unordered_map<const RenderWork*, int> holders_;
   std::unordered_map<const RenderWork*, Steady::time_point> step_start_;
+  int64_t film_bytes_ = 0, scene_bytes_ = 0;
   bool is_stopping_ = false;
 };
 

@@ -15,9 +15,9 @@
 namespace tilelight::server {
 
 struct JobFilter {
-  std::string client;             // only this client's
+  std::string client;  // only this client's
   std::optional<JobState> state;
-  uint64_t before = UINT64_MAX;   // only of a smaller sequence
+  uint64_t before = UINT64_MAX;  // only of a smaller sequence
   int limit = 50;
 };
 

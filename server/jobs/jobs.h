@@ -45,7 +45,7 @@ class Jobs : public std::enable_shared_from_this<Jobs> {
 
   const std::unique_ptr<JobStore> store_;
   const Options options_;
-  mutable std::mutex mutex_;  // guards the rest; never held while the store or a work is asked
+  mutable std::mutex mutex_;               // guards the rest; never held while the store or a work is asked
   std::map<std::string, WorkLease> held_;  // by id: live work and kept results
   std::deque<std::string> ended_;          // ids with a result, oldest first
 };

@@ -28,7 +28,9 @@ void CompiledCache::get(ScenePtr scene, Priority priority, Then then) {
       compilation.waiting.push_back(std::move(then));
     }
   }
-  metrics_.add("tilelight_scene_cache_total", found ? "result=\"hit\"" : is_first ? "result=\"miss\"" : "result=\"join\"");
+  metrics_.add("tilelight_scene_cache_total", found      ? "result=\"hit\""
+                                              : is_first ? "result=\"miss\""
+                                                         : "result=\"join\"");
   if (found) {
     then(std::move(found));
   } else if (post) {

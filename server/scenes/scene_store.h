@@ -32,7 +32,7 @@ class SceneStore {
 
  private:
   const int64_t max_bytes_;
-  mutable std::mutex mutex_;  // guards the rest
+  mutable std::mutex mutex_;    // guards the rest
   std::list<ScenePtr> recent_;  // the front was used last
   std::unordered_map<std::string, std::list<ScenePtr>::iterator> by_id_;
   int64_t bytes_ = 0;

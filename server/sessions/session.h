@@ -16,19 +16,23 @@
 namespace tilelight::server {
 
 struct Frame {
-  int64_t seq = 0;       // 1, 2, ... in the session
-  int64_t view_seq = 0;  // the view it shows
-  bool is_final = false; // the view's stop rules hold
+  int64_t seq = 0;        // 1, 2, ... in the session
+  int64_t view_seq = 0;   // the view it shows
+  bool is_final = false;  // the view's stop rules hold
   double exposure = 0.0;
   RenderProgress progress;
-  std::string stop;      // of the final frame
+  std::string stop;  // of the final frame
   std::shared_ptr<const Image> image;
 };
 
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(std::string id, TilePool& pool, ScenePtr scene, CompiledPtr compiled, View base)
-      : id_(std::move(id)), pool_(pool), scene_(std::move(scene)), compiled_(std::move(compiled)), base_(std::move(base)) {}
+      : id_(std::move(id)),
+        pool_(pool),
+        scene_(std::move(scene)),
+        compiled_(std::move(compiled)),
+        base_(std::move(base)) {}
 
   const std::string& id() const { return id_; }
   const ScenePtr& scene() const { return scene_; }

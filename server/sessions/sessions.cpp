@@ -6,6 +6,11 @@
 #include "server/random_id.h"
 
 namespace tilelight::server {
+namespace {
+
+int64_t pixels_of(const ImageSpec& image) { return int64_t{image.width} * image.height; }
+
+}  // namespace
 
 Result<SessionPtr> Sessions::open(ScenePtr scene, CompiledPtr compiled, View view) {
   close_idle();
@@ -16,7 +21,10 @@ Result<SessionPtr> Sessions::open(ScenePtr scene, CompiledPtr compiled, View vie
     if (static_cast<int>(by_id_.size()) >= max_sessions_) {
       return fail("too_many_sessions", std::to_string(by_id_.size()) + " sessions are open, the server's limit");
     }
-    by_id_[session->id()] = {session, clock_.mono_ms()};
+    if (pixels() + pixels_of(view.image) > kMaxPixels) {
+      return fail("too_many_pixels", "the views of all sessions together have as many pixels as they may");
+    }
+    by_id_[session->id()] = {session, clock_.mono_ms(), pixels_of(view.image)};
   }
   session->set_view(0, std::move(view), false);
   return session;
@@ -29,6 +37,21 @@ SessionPtr Sessions::find(const std::string& id) {
   if (known == by_id_.end()) return nullptr;
   known->second.used_ms = clock_.mono_ms();
   return known->second.session;
+}
+
+int64_t Sessions::pixels() const {
+  int64_t sum = 0;
+  for (const auto& [id, entry] : by_id_) sum += entry.pixels;
+  return sum;
+}
+
+bool Sessions::reserve(const std::string& id, const ImageSpec& image) {
+  const std::lock_guard lock(mutex_);
+  const auto known = by_id_.find(id);
+  if (known == by_id_.end()) return true;  // closed meanwhile: the view goes nowhere
+  if (pixels() - known->second.pixels + pixels_of(image) > kMaxPixels) return false;
+  known->second.pixels = pixels_of(image);
+  return true;
 }
 
 bool Sessions::close(const std::string& id) {

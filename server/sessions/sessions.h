@@ -14,15 +14,20 @@ namespace tilelight::server {
 class Sessions {
  public:
   static constexpr double kIdleMs = 5.0 * 60.0 * 1000.0;
+  // Of the views of all sessions together: 1.6 GB of films and frames.
+  static constexpr int64_t kMaxPixels = 64 << 20;
 
   Sessions(TilePool& pool, const Clock& clock, int max_sessions)
       : pool_(pool), clock_(clock), max_sessions_(max_sessions) {}
   ~Sessions() { close_all(); }
 
-  // Opens a session and starts rendering its first view as number 0. Errors: too_many_sessions, stopping.
+  // Opens a session and starts rendering its first view as number 0.
+  // Errors: too_many_sessions, too_many_pixels, stopping.
   Result<SessionPtr> open(ScenePtr scene, CompiledPtr compiled, View view);
   // Null if unknown or expired. Counts as use.
   SessionPtr find(const std::string& id);
+  // Notes the size of the session's next view. False: all sessions together would show too many pixels.
+  bool reserve(const std::string& id, const ImageSpec& image);
   bool close(const std::string& id);
   void close_idle();
   void close_all();  // and opens no more
@@ -32,7 +37,9 @@ class Sessions {
   struct Entry {
     SessionPtr session;
     double used_ms;
+    int64_t pixels;  // of its newest view
   };
+  int64_t pixels() const;  // REQUIRES: mutex_
 
   TilePool& pool_;
   const Clock& clock_;

@@ -12,7 +12,8 @@ using Discovery = ServiceTest;
 
 TEST_F(Discovery, TheDescriptionOfTheApiHasExactlyTheRoutesOfTheTable) {
   std::set<std::string> routes, described;
-  for (const server::Route& route : server::api_routes()) routes.insert(std::string(route.method) + " " + std::string(route.pattern));
+  for (const server::Route& route : server::api_routes())
+    routes.insert(std::string(route.method) + " " + std::string(route.pattern));
   const Json document = Json::parse(service_->get("/openapi.json").body);
   for (const auto& [path, item] : document.at("paths").items()) {
     for (const auto& [method, operation] : item.items()) {
@@ -92,7 +93,8 @@ TEST_F(Discovery, MetricsCountTheRequestsByRouteAndStatus) {
   own.get("/v1/limits");
   own.get("/nowhere");
   const std::string text = ask(own.admin_port(), "GET", "/metrics").body;
-  EXPECT_NE(text.find("tilelight_http_requests_total{route=\"/v1/limits\",status=\"200\"} 2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("tilelight_http_requests_total{route=\"/v1/limits\",status=\"200\"} 2\n"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("tilelight_http_requests_total{route=\"none\",status=\"404\"} 1\n"), std::string::npos);
   EXPECT_NE(text.find("tilelight_http_request_duration_seconds_bucket{le=\"+Inf\"} 3\n"), std::string::npos);
   EXPECT_NE(text.find("# TYPE tilelight_renders_queued gauge\n"), std::string::npos);

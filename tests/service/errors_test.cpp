@@ -19,7 +19,8 @@ Json problem_of(const HttpAnswer& answer) {
 bool is_well(const Service& service) { return service.get("/v1/limits").status == 200; }
 
 TEST_F(Errors, ABadSceneIs422WithEveryErrorAndItsPointer) {
-  const auto answer = service_->post("/v1/renders", R"({"objects": [{"type": "sphere", "radius": -1}, {"type": "spher"}]})");
+  const auto answer =
+      service_->post("/v1/renders", R"({"objects": [{"type": "sphere", "radius": -1}, {"type": "spher"}]})");
   EXPECT_EQ(answer.status, 422);
   const Json problem = problem_of(answer);
   std::set<std::string> pointers;
@@ -37,7 +38,8 @@ TEST_F(Errors, TextThatIsNotJsonIs400WithLineAndColumn) {
 }
 
 TEST_F(Errors, PlacesInsideAWrappedSceneAreThoseOfTheBody) {
-  const auto answer = service_->post("/v1/renders", "{\"format\": \"png\",\n\"scene\": {\"objects\":\n [{\"type\": \"sphere\", \"radius\": -1}]}}");
+  const auto answer = service_->post(
+      "/v1/renders", "{\"format\": \"png\",\n\"scene\": {\"objects\":\n [{\"type\": \"sphere\", \"radius\": -1}]}}");
   EXPECT_EQ(answer.status, 422);
   const Json error = problem_of(answer).at("errors").at(0);
   EXPECT_EQ(error.at("pointer"), "/scene/objects/0/radius");
@@ -51,7 +53,8 @@ TEST_F(Errors, WhatIsWrongAroundASceneIsSaidAllAtOnce) {
   EXPECT_EQ(answer.status, 422);
   const Json problem = problem_of(answer);
   EXPECT_EQ(problem.at("errors").size(), 2) << problem;
-  EXPECT_EQ(Json::parse(service_->post("/v1/renders", R"({"scene": "x"})").body).at("errors").at(0).at("code"), "unknown_scene");
+  EXPECT_EQ(Json::parse(service_->post("/v1/renders", R"({"scene": "x"})").body).at("errors").at(0).at("code"),
+            "unknown_scene");
 }
 
 TEST_F(Errors, HostileDocumentsAreRefusedAndDoNoHarm) {
@@ -79,7 +82,8 @@ TEST_F(Errors, HostileDocumentsAreRefusedAndDoNoHarm) {
   for (const auto& [name, document] : documents) {
     for (const char* path : {"/v1/renders", "/v1/scenes", "/v1/plan", "/v1/sessions"}) {
       const auto answer = service_->post(path, document, {{"Accept", "*/*"}});
-      EXPECT_TRUE(answer.status == 400 || answer.status == 413 || answer.status == 422) << name << " " << path << " " << answer.status;
+      EXPECT_TRUE(answer.status == 400 || answer.status == 413 || answer.status == 422)
+          << name << " " << path << " " << answer.status;
       problem_of(answer);
     }
   }
@@ -96,8 +100,9 @@ TEST_F(Errors, AWrongMethodIs405AndAllowNamesTheRightOnes) {
 }
 
 TEST_F(Errors, UnknownPathsAndLaterReleasesAre404) {
-  for (const char* path : {"/nowhere", "/v1/", "/v1/renders/", "/v1/assets", "/v1/renders/x/events", "/v1/renders/x/refine",
-                           "/../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/js/../../x", "/metrics", "//"}) {
+  for (const char* path :
+       {"/nowhere", "/v1/", "/v1/renders/", "/v1/assets", "/v1/renders/x/events", "/v1/renders/x/refine",
+        "/../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/js/../../x", "/metrics", "//"}) {
     EXPECT_EQ(service_->get(path).status, 404) << path;
   }
 }
@@ -120,7 +125,8 @@ TEST_F(Errors, PagesOfOtherSitesCannotChangeAnything) {
   EXPECT_EQ(service_->post("/v1/renders", small_scene(), {{"Origin", own}}).status, 202);
   EXPECT_EQ(ask(service_->port(), "DELETE", "/v1/renders/x", {{"Origin", "http://evil.example"}}).status, 403);
   for (const char* type : {"text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"}) {
-    EXPECT_EQ(ask(service_->port(), "POST", "/v1/renders", {{"Content-Type", type}}, small_scene()).status, 415) << type;
+    EXPECT_EQ(ask(service_->port(), "POST", "/v1/renders", {{"Content-Type", type}}, small_scene()).status, 415)
+        << type;
   }
   EXPECT_EQ(ask(service_->port(), "POST", "/v1/renders", {}, small_scene()).status, 415);
   EXPECT_EQ(service_->get("/v1/limits").header("access-control-allow-origin"), "");

@@ -64,9 +64,12 @@ TEST_F(FrontOfService, RequestsThatTwoReadersCouldCutDifferentlyAreRefused) {
 }
 
 TEST_F(FrontOfService, LongTargetsAndHeadsAreRefused) {
-  EXPECT_EQ(raw(service_->port(), "GET /" + std::string(5000, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 414);
+  EXPECT_EQ(raw(service_->port(), "GET /" + std::string(5000, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n").status,
+            414);
   EXPECT_EQ(raw(service_->port(), "GET /" + std::string(100'000, 'a')).status, 414);
-  EXPECT_EQ(raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20'000, 'a') + "\r\n\r\n").status, 431);
+  EXPECT_EQ(
+      raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20'000, 'a') + "\r\n\r\n").status,
+      431);
   std::string many = "GET / HTTP/1.1\r\nHost: localhost\r\n";
   for (int i = 0; i < 200; ++i) many += "X: y\r\n";
   EXPECT_EQ(raw(service_->port(), many + "\r\n").status, 431);
@@ -105,7 +108,8 @@ TEST_F(FrontOfService, RangesAreIgnored) {
 TEST_F(FrontOfService, ALargeBodyIsInvitedAndArrivesInPieces) {
   const std::string scene = small_scene(20);
   HttpClient client(service_->port());
-  client.write(kPost + "Accept: image/png\r\nExpect: 100-continue\r\nContent-Length: " + std::to_string(scene.size()) + "\r\n\r\n");
+  client.write(kPost + "Accept: image/png\r\nExpect: 100-continue\r\nContent-Length: " + std::to_string(scene.size()) +
+               "\r\n\r\n");
   EXPECT_EQ(client.read().status, 100);
   for (const char c : scene) client.write(std::string_view(&c, 1));
   EXPECT_EQ(client.read().status, 200);
@@ -143,7 +147,7 @@ TEST_F(FrontOfService, WaitersBeyondTheirBudgetAreAnswered503AndOthersAreNotTouc
   HttpClient waiter(own.port());
   const std::string scene = endless_scene();
   waiter.write(kPost + "Accept: image/png\r\nContent-Length: " + std::to_string(scene.size()) + "\r\n\r\n" + scene);
-  ASSERT_TRUE(own.metric_reaches("tilelight_renders_running", 1));
+  ASSERT_TRUE(own.metric_reaches("tilelight_requests_waiting", 1));
   const auto answer = own.post("/v1/renders", small_scene(), {{"Accept", "image/png"}});
   EXPECT_EQ(answer.status, 503);
   EXPECT_FALSE(answer.header("retry-after").empty());

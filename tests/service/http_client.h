@@ -12,7 +12,7 @@
 namespace tilelight::service {
 
 struct HttpAnswer {
-  int status = 0;  // 0: the connection ended or the time was over before an answer
+  int status = 0;                              // 0: the connection ended or the time was over before an answer
   std::map<std::string, std::string> headers;  // names in lower case
   std::string body;
 
@@ -48,9 +48,11 @@ class HttpClient {
 };
 
 // A request on a connection of its own.
-HttpAnswer ask(int port, std::string_view method, std::string_view path, Fields fields = {}, std::string_view body = "");
+HttpAnswer ask(int port, std::string_view method, std::string_view path, Fields fields = {},
+               std::string_view body = "");
 
 // A POST or PUT of JSON.
-HttpAnswer ask_json(int port, std::string_view method, std::string_view path, std::string_view json, Fields fields = {});
+HttpAnswer ask_json(int port, std::string_view method, std::string_view path, std::string_view json,
+                    Fields fields = {});
 
 }  // namespace tilelight::service

@@ -16,7 +16,8 @@ namespace tilelight::server {
 namespace {
 
 TEST(Head, IsFoundAtTheSamePlaceHoweverItArrives) {
-  const std::string request = "POST /v1/renders?x=1 HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nRange: bytes=0-1\r\n\r\n{}";
+  const std::string request =
+      "POST /v1/renders?x=1 HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nRange: bytes=0-1\r\n\r\n{}";
   const size_t end = request.size() - 2;
   for (size_t size = 0; size <= request.size(); ++size) {
     const auto head = scan_head(request.substr(0, size), {});
@@ -43,10 +44,17 @@ TEST(JsonMembers, AreTheTopLevelOnes) {
 }
 
 TEST(JsonMembers, OfABrokenOutlineAreNone) {
-  for (const char* text : {"", "[]", "{", "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{\"a\":1}x", "{\"a\":\"", "{\"a\":{]", "{a:1}"}) {
+  for (const char* text :
+       {"", "[]", "{", "{\"a\"}", "{\"a\":}", "{\"a\":1,}", "{\"a\":1}x", "{\"a\":\"", "{\"a\":{]", "{a:1}"}) {
     EXPECT_FALSE(scan_members(text)) << text;
   }
   EXPECT_TRUE(scan_members("{}")->empty());
+}
+
+TEST(JsonMembers, ThatAreTooManyWrapNoScene) {
+  std::string text = "{\"a\":0";
+  for (int i = 0; i < 100'000; ++i) text += ",\"a\":0";
+  EXPECT_FALSE(scan_members(text + "}"));
 }
 
 TEST(JsonMembers, KeptOnesStayWhereTheyWereAndParse) {
@@ -57,7 +65,8 @@ TEST(JsonMembers, KeptOnesStayWhereTheyWereAndParse) {
   EXPECT_EQ(kept.find("\"camera\""), text.find("\"camera\""));
   EXPECT_EQ(nlohmann::json::parse(kept), nlohmann::json::parse(R"({"camera": {"a": [1, 2]}, "image": {}})"));
   EXPECT_EQ(nlohmann::json::parse(keep_members(text, *members, {})), nlohmann::json::object());
-  EXPECT_EQ(nlohmann::json::parse(keep_value(text, *find_member(*members, "camera"))), nlohmann::json::parse(R"({"a": [1, 2]})"));
+  EXPECT_EQ(nlohmann::json::parse(keep_value(text, *find_member(*members, "camera"))),
+            nlohmann::json::parse(R"({"a": [1, 2]})"));
 }
 
 Request with_header(std::string name, std::string value) {
@@ -68,7 +77,9 @@ Request with_header(std::string name, std::string value) {
 
 TEST(Accept, PicksTheBestOfferByQualityAndSpecificity) {
   const std::vector<std::string_view> offers = {"image/png", "image/jpeg"};
-  const auto best = [&](std::string accept) { return best_offer(with_header("Accept", std::move(accept)), offers).value_or("none"); };
+  const auto best = [&](std::string accept) {
+    return best_offer(with_header("Accept", std::move(accept)), offers).value_or("none");
+  };
   EXPECT_EQ(best("*/*"), "image/png");
   EXPECT_EQ(best("image/jpeg"), "image/jpeg");
   EXPECT_EQ(best("IMAGE/JPEG ; q=0.5, text/html"), "image/jpeg");

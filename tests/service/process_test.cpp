@@ -66,8 +66,10 @@ TEST(DaemonProcess, PrintsWhereItIsAndEndsCleanlyOnSigtermInTheMiddleOfWork) {
   ASSERT_EQ(ask_json(port, "POST", "/v1/renders", endless_scene()).status, 202);
   HttpClient waiter(port);
   const std::string scene = endless_scene(1);
-  waiter.write("POST /v1/renders HTTP/1.1\r\nHost: localhost\r\nAccept: image/png\r\nContent-Type: application/json\r\n"
-               "Content-Length: " + std::to_string(scene.size()) + "\r\n\r\n" + scene);
+  waiter.write(
+      "POST /v1/renders HTTP/1.1\r\nHost: localhost\r\nAccept: image/png\r\nContent-Type: application/json\r\n"
+      "Content-Length: " +
+      std::to_string(scene.size()) + "\r\n\r\n" + scene);
   HttpClient idle(port);
   while (Json::parse(ask(port, "GET", "/v1/renders").body).at("renders").at(0).at("state") != "running") {
   }

@@ -17,7 +17,8 @@ TEST_F(Renders, APostWithAcceptPngWaitsAndAnswersWithThePicture) {
   EXPECT_EQ(answer.header("content-type"), "image/png");
   EXPECT_EQ(png_size(answer.body), std::pair(48, 32));
   EXPECT_FALSE(answer.header("etag").empty());
-  EXPECT_NE(answer.header("render-info").find("spp=2, stop=\"samples\""), std::string::npos) << answer.header("render-info");
+  EXPECT_NE(answer.header("render-info").find("spp=2, stop=\"samples\""), std::string::npos)
+      << answer.header("render-info");
   for (const char* step : {"parse", "queue", "compile", "render", "encode"}) {
     EXPECT_NE(answer.header("server-timing").find(std::string(step) + ";dur="), std::string::npos) << step;
   }
@@ -84,8 +85,10 @@ TEST_F(Renders, AClientThatLeavesWhileItWaitsCancelsItsRender) {
   {
     HttpClient client(service_->port());
     const std::string scene = endless_scene(2);
-    client.write("POST /v1/renders HTTP/1.1\r\nHost: localhost\r\nAccept: image/png\r\nContent-Type: application/json\r\n"
-                 "Content-Length: " + std::to_string(scene.size()) + "\r\n\r\n" + scene);
+    client.write(
+        "POST /v1/renders HTTP/1.1\r\nHost: localhost\r\nAccept: image/png\r\nContent-Type: application/json\r\n"
+        "Content-Length: " +
+        std::to_string(scene.size()) + "\r\n\r\n" + scene);
     ASSERT_TRUE(service_->metric_reaches("tilelight_renders_running", 1));
   }
   EXPECT_TRUE(service_->metric_reaches("tilelight_renders_total{state=\"cancelled\"}", before + 1));
@@ -103,7 +106,8 @@ TEST_F(Renders, IdenticalRendersInFlightAreOneUntilTheLastHolderLeaves) {
 }
 
 TEST_F(Renders, AWaitThatRunsOutBecomesAJob) {
-  const auto answer = service_->post("/v1/renders", endless_scene(4), {{"Accept", "image/png"}, {"Prefer", "wait=0.05"}});
+  const auto answer =
+      service_->post("/v1/renders", endless_scene(4), {{"Accept", "image/png"}, {"Prefer", "wait=0.05"}});
   ASSERT_EQ(answer.status, 202);
   EXPECT_FALSE(answer.header("preference-applied").empty());
   const std::string location = answer.header("location");
@@ -114,7 +118,8 @@ TEST_F(Renders, AWaitThatRunsOutBecomesAJob) {
 }
 
 TEST_F(Renders, TheBestSoFarCanBeSeenWhileARenderRuns) {
-  const std::string scene = R"({"scene": )" + small_scene() + R"(, "image": {"width": 320, "height": 200}, "render": {"samples": 4096}})";
+  const std::string scene =
+      R"({"scene": )" + small_scene() + R"(, "image": {"width": 320, "height": 200}, "render": {"samples": 4096}})";
   const auto accepted = service_->post("/v1/renders", scene);
   ASSERT_EQ(accepted.status, 202) << accepted.body;
   const std::string location = accepted.header("location");
@@ -213,7 +218,8 @@ TEST_F(Renders, APixelIsExplained) {
 }
 
 TEST_F(Renders, ARenderNobodyHasIs404) {
-  for (const char* path : {"/v1/renders/none", "/v1/renders/none/image", "/v1/renders/none/report", "/v1/renders/none/pixel"}) {
+  for (const char* path :
+       {"/v1/renders/none", "/v1/renders/none/image", "/v1/renders/none/report", "/v1/renders/none/pixel"}) {
     EXPECT_EQ(service_->get(path).status, 404) << path;
   }
 }

@@ -27,8 +27,8 @@ TEST_F(Scenes, ASceneIsStoredUnderTheHashOfWhatItMeans) {
 
 TEST_F(Scenes, AStoredSceneIsRenderedByItsIdWithAnotherView) {
   const std::string id = store(*service_, small_scene());
-  const auto picture = service_->post("/v1/renders", R"({"scene": ")" + id + R"(", "image": {"width": 24, "height": 18}})",
-                                      {{"Accept", "image/png"}});
+  const auto picture = service_->post(
+      "/v1/renders", R"({"scene": ")" + id + R"(", "image": {"width": 24, "height": 18}})", {{"Accept", "image/png"}});
   ASSERT_EQ(picture.status, 200) << picture.body;
   EXPECT_EQ(png_size(picture.body), std::pair(24, 18));
 }
@@ -36,8 +36,10 @@ TEST_F(Scenes, AStoredSceneIsRenderedByItsIdWithAnotherView) {
 TEST_F(Scenes, AnOverrideOfTheViewIsTheSameAsWritingItIntoTheScene) {
   const std::string id = store(*service_, small_scene());
   const std::string camera = R"("camera": {"position": [4,5,9], "target": [0,0.5,0], "fov_y_deg": 30})";
-  const auto wrapped = service_->post("/v1/renders", R"({"scene": ")" + id + "\", " + camera + "}", {{"Accept", "image/png"}});
-  const auto written = service_->post("/v1/renders", "{" + camera + ", " + small_scene().substr(1), {{"Accept", "image/png"}});
+  const auto wrapped =
+      service_->post("/v1/renders", R"({"scene": ")" + id + "\", " + camera + "}", {{"Accept", "image/png"}});
+  const auto written =
+      service_->post("/v1/renders", "{" + camera + ", " + small_scene().substr(1), {{"Accept", "image/png"}});
   const auto queried = service_->get("/v1/scenes/" + id + "/image?position=4,5,9&target=0,0.5,0&fov_y_deg=30");
   ASSERT_EQ(wrapped.status, 200) << wrapped.body;
   ASSERT_EQ(queried.status, 200) << queried.body;
@@ -53,7 +55,8 @@ TEST_F(Scenes, APicturesTagIsKnownBeforeItIsRendered) {
   EXPECT_EQ(png_size(picture.body), std::pair(40, 30));
   const double before = service_->app().metrics().value("tilelight_renders_total", "state=\"done\"");
   EXPECT_EQ(service_->get(path, {{"If-None-Match", picture.header("etag")}}).status, 304);
-  EXPECT_EQ(service_->app().metrics().value("tilelight_renders_total", "state=\"done\""), before) << "nothing was rendered";
+  EXPECT_EQ(service_->app().metrics().value("tilelight_renders_total", "state=\"done\""), before)
+      << "nothing was rendered";
   EXPECT_NE(service_->get(path + "&exposure=1").header("etag"), picture.header("etag"));
 }
 

@@ -37,7 +37,9 @@ class Service {
   server::App& app() { return *app_; }
   HandClock& clock() { return clock_; }
 
-  HttpAnswer get(std::string_view path, Fields fields = {}) const { return ask(port(), "GET", path, std::move(fields)); }
+  HttpAnswer get(std::string_view path, Fields fields = {}) const {
+    return ask(port(), "GET", path, std::move(fields));
+  }
   HttpAnswer post(std::string_view path, std::string_view json, Fields fields = {}) const {
     return ask_json(port(), "POST", path, json, std::move(fields));
   }

@@ -87,9 +87,9 @@ TEST_F(SessionsOfService, ClosingOneAnswersWhoWaitsInIt) {
   const std::string last = final_frame(*service_, session, "0").header("frame-seq");
   HttpClient waiter(service_->port());
   waiter.write("GET " + session + "/frame?after=" + last + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  ASSERT_TRUE(service_->metric_reaches("tilelight_requests_waiting", 1));
   ask(service_->port(), "DELETE", session);
-  const int status = waiter.read().status;
-  EXPECT_TRUE(status == 410 || status == 404) << status << ": closed while it waited, or before it came";
+  EXPECT_EQ(waiter.read().status, 410);
   EXPECT_EQ(service_->get(session + "/frame").status, 404);
 }
 
@@ -112,6 +112,21 @@ TEST_F(SessionsOfService, TheirNumberIsLimited) {
   const auto third = own.post("/v1/sessions", small_scene());
   EXPECT_EQ(third.status, 503);
   EXPECT_FALSE(third.header("retry-after").empty());
+}
+
+TEST_F(SessionsOfService, TheirPixelsAreLimitedTogether) {
+  TilePool pool(1);
+  const HandClock clock;
+  server::Sessions sessions(pool, clock, 4);
+  auto scene = std::make_shared<server::StoredScene>();
+  scene->parsed = parse_scene(small_scene(), Limits{}).value();
+  const auto compiled = compile_scene(scene->parsed.scene, pool);
+  const std::string one = (*sessions.open(scene, compiled, scene->parsed.view))->id();
+  const std::string two = (*sessions.open(scene, compiled, scene->parsed.view))->id();
+  EXPECT_TRUE(sessions.reserve(one, {8000, 8000, 0.0}));
+  EXPECT_FALSE(sessions.reserve(two, {4000, 4000, 0.0}));
+  EXPECT_TRUE(sessions.reserve(one, {640, 480, 0.0}));
+  EXPECT_TRUE(sessions.reserve(two, {4000, 4000, 0.0})) << "what one gave back";
 }
 
 TEST_F(SessionsOfService, ABadViewIs422AndChangesNothing) {
