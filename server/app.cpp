@@ -76,7 +76,7 @@ void App::add_gauges() {
   metrics_.gauge("tilelight_scene_cache_bytes", "Memory of compiled scenes.",
                  [this] { return static_cast<double>(compiled_->bytes()); });
   metrics_.gauge("tilelight_requests_waiting", "Requests that wait for a render, a change or a frame.",
-                 [this] { return config_.max_waiting - waits_.free(); }); });
+                 [this] { return config_.max_waiting - waits_.free(); });
   metrics_.gauge("tilelight_http_connections", "Open connections.",
                  [this] { return static_cast<double>(http_->connection_count()); });
   metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
