@@ -216,8 +216,9 @@ Result<ConfigRequest> load_config(int argc, const char* const* argv,
       return ::tl::unexpected(done.error());
     }
   }
-  if (!is_loopback(config.host) && !config.allow_open) {
-    return fail("public_bind", "--host " + config.host +
+  const bool is_admin_public = !is_loopback(config.admin_host);
+  if ((is_admin_public || !is_loopback(config.host)) && !config.allow_open) {
+    return fail("public_bind", (is_admin_public ? "--admin-host " + config.admin_host : "--host " + config.host) +
                                    " can be reached from other machines and there are no keys; say --allow-open if "
                                    "that is meant (a proxy or a firewall in front), or bind 127.0.0.1");
   }

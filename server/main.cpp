@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tilelightd: the render server. Ends with 0 on SIGTERM and SIGINT, 2 where its configuration is refused, 1 where it
 // cannot listen.
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -8,6 +11,14 @@
 
 namespace tilelight::server {
 namespace {
+
+// A connection is a descriptor, and the usual soft limit of 1,024 is older than servers of many connections.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 16'384));
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
 
 int run(int argc, const char* const* argv) {
   // Blocked in all threads; sigwait below takes them. Before any thread exists.
@@ -17,6 +28,7 @@ int run(int argc, const char* const* argv) {
   sigaddset(&ending, SIGINT);
   pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  raise_descriptor_limit();
 
   const auto request = load_config(argc, argv, process_environment());
   if (!request) {

@@ -18,6 +18,7 @@ namespace {
 constexpr uint64_t kListenerId = 0, kWakeId = 1;
 constexpr int kTickMs = 250;              // how often deadlines are looked at
 constexpr size_t kReadBytes = 64 << 10;   // at a time, so that one fast sender does not hold the loop
+constexpr size_t kWriteBytes = 1 << 20;   // likewise for one fast reader of a large image
 constexpr double kLingerMs = 2'000.0;     // for a refused client to read its answer before the reset
 constexpr double kBodyBytesPerMs = 64.0;  // the slowest upload that is waited for, beside head_timeout_ms
 
@@ -276,7 +277,9 @@ void Front::begin_write(Connection& c, std::string bytes, bool close_after) {
 }
 
 void Front::write_some(Connection& c) {
+  const size_t turn_end = c.written + kWriteBytes;
   while (c.written < c.out.size()) {
+    if (c.written >= turn_end) return watch(c, EPOLLOUT);
     const ssize_t sent = send(c.fd, c.out.data() + c.written, c.out.size() - c.written, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0 && errno == EAGAIN) return watch(c, EPOLLOUT);

@@ -141,6 +141,7 @@ TEST(Config, UnknownNamesAndBadValuesRefuseToStartAndAreNamed) {
 
 TEST(Config, APublicAddressNeedsAWordOfAssent) {
   EXPECT_NE(load({"--host", "0.0.0.0"}).error().detail.find("--allow-open"), std::string::npos);
+  EXPECT_FALSE(load({"--admin-host", "0.0.0.0"}));
   EXPECT_TRUE(load({"--host", "0.0.0.0", "--allow-open"}));
   EXPECT_TRUE(load({"--host", "::1"}));
   EXPECT_TRUE(load({"--data-dir", ":memory:", "--quiet"}));
