@@ -54,7 +54,7 @@ export async function onPage({ server, settings = kDesktop, path: where = '/', e
     const page = context.pages()[0];
     page.setDefaultTimeout(kPatienceMs);
     const complaints = watch(page, expected);
-    await page.addInitScript(`window.lookOf = ${lookOf}`);
+    await page.addInitScript(installEyes);
     await page.goto(server.url + where);
     await finished(page);
     await body({ page, server, context });
@@ -84,36 +84,39 @@ export async function finished(page) {
 
 // Makes a movement and waits for the finished picture of its end.
 export async function afterMoving(page, move) {
-  const before = await look(page);
+  const before = await page.evaluate(() => window.glance());
   await move();
-  await page.waitForFunction((old) => window.lookOf(document.getElementById('picture')) !== old, before);
+  await page.waitForFunction((old) => window.glance() !== old, before, { polling: 100 });
   await finished(page);
 }
 
 // A fingerprint of what the canvas shows: equal strings mean equal pixels.
 export function look(page) {
-  return page.evaluate(() => window.lookOf(document.getElementById('picture')));
+  return page.evaluate(() => window.lookAt(document.getElementById('picture')));
 }
 
 // The fingerprint of a PNG's pixels.
 export function lookOfPng(page, bytes) {
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    canvas.getContext('2d').drawImage(bitmap, 0, 0);
-    return window.lookOf(canvas);
+    return window.lookAt(await createImageBitmap(new Blob([bytes], { type: 'image/png' })));
   }, bytes.toString('base64'));
 }
 
-// Runs in the page: size and FNV-1a hash of a canvas' colours.
-function lookOf(canvas) {
-  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  let hash = 0x811c9dc5;
-  for (let i = 0; i < data.length; i += 4) {
-    hash = Math.imul(hash ^ ((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]), 0x01000193);
-  }
-  return `${canvas.width}x${canvas.height}:${hash >>> 0}`;
+// Runs in every page. lookAt: size and FNV-1a hash of an image's colours; glance: of a small copy of the picture, which
+// is enough to see that something moved.
+function installEyes() {
+  window.lookAt = (image, width = image.width, height = image.height) => {
+    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    context.drawImage(image, 0, 0, width, height);
+    const { data } = context.getImageData(0, 0, width, height);
+    let hash = 0x811c9dc5;
+    for (let i = 0; i < data.length; i += 4) {
+      hash = Math.imul(hash ^ ((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]), 0x01000193);
+    }
+    return `${width}x${height}:${hash >>> 0}`;
+  };
+  window.glance = () => window.lookAt(document.getElementById('picture'), 72, 45);
 }
 
 export async function shoot(page, name) {
