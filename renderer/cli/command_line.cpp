@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "renderer/cli/commands.h"
+
+namespace tilelight::cli {
+namespace {
+
+// A subcommand writes its exit code here once its options are read.
+using Run = std::function<ExitCode()>;
+
+void add_view_options(CLI::App& app, ViewOptions& view) {
+  app.add_option("--width", view.width, "Width of the image, in pixels");
+  app.add_option("--height", view.height, "Height of the image, in pixels");
+  app.add_option("--samples", view.samples, "Samples a pixel");
+}
+
+void add_isa_option(CLI::App& app, std::string& isa) {
+  app.add_option("--isa", isa, "Instruction set of the kernels: auto, AVX3, AVX2, SSE4, ...; the image is the same")
+      ->capture_default_str();
+}
+
+void add_scene_option(CLI::App& app, std::string& path) {
+  app.add_option("scene", path, "The scene, JSON; - reads standard input")->required();
+}
+
+CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
+  CLI::Option* output = app.add_option("-o,--output", arguments.output, "The image: .png, .jpg or .exr (linear, half)");
+  add_view_options(app, arguments.view);
+  app.add_option("--threads", arguments.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
+  app.add_option("--tile", arguments.tile_px, "Edge of a tile, in pixels; the image is the same")
+      ->check(CLI::Range(1, 65536));
+  add_isa_option(app, arguments.isa);
+  app.add_option("--report", arguments.report, "Also write the report, JSON: rays and time pass by pass; - prints it");
+  return output;
+}
+
+void add_render(CLI::App& app, Run& run) {
+  struct Options {
+    std::string scene;
+    RenderArguments render;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an image file");
+  add_scene_option(*command, options->scene);
+  CLI::Option* output = add_output_options(*command, options->render);
+  CLI::Option* pixel = command
+                           ->add_option("--pixel", options->render.pixel,
+                                        "x,y: print the rays behind one pixel, JSON, and do not render")
+                           ->delimiter(',')
+                           ->expected(2);
+  command->add_option("--sample", options->render.sample, "Which sample of the pixel, from 0")->needs(pixel);
+  command->footer(
+      "Examples:\n"
+      "  tilelight render scene.json -o scene.png\n"
+      "  tilelight render scene.json -o big.exr --width 3840 --height 2160 --samples 64 --report report.json\n"
+      "  tilelight render scene.json --pixel 640,360\n"
+      "  generate-scene | tilelight render - -o out.jpg");
+  command->callback([options, output, pixel, &run] {
+    if (output->count() + pixel->count() == 0) throw CLI::RequiredError("--output or --pixel");
+    run = [options] {
+      const auto source = read_scene(options->scene);
+      if (const ExitCode* code = std::get_if<ExitCode>(&source)) return *code;
+      return run_render(std::get<SceneText>(source), options->render);
+    };
+  });
+}
+
+void add_plan(CLI::App& app, Run& run) {
+  struct Options {
+    std::string scene;
+    PlanArguments plan;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("plan", "Say what a render will do, what was left out and why");
+  add_scene_option(*command, options->scene);
+  add_view_options(*command, options->plan.view);
+  add_isa_option(*command, options->plan.isa);
+  command->add_flag("--json", options->plan.json, "As a JSON object");
+  command->footer("Examples:\n  tilelight plan scene.json\n  tilelight plan scene.json --json | jq .left_out");
+  command->callback([options, &run] {
+    run = [options] {
+      const auto source = read_scene(options->scene);
+      if (const ExitCode* code = std::get_if<ExitCode>(&source)) return *code;
+      return run_plan(std::get<SceneText>(source), options->plan);
+    };
+  });
+}
+
+void add_chess(CLI::App& app, Run& run) {
+  struct Options {
+    std::string fen;
+    int detail = 48;
+    bool scene = false;
+    RenderArguments render;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("chess", "Render a chess position");
+  command->add_option("fen", options->fen, "The position, FEN, or its placement field alone")->required();
+  CLI::Option* output = add_output_options(*command, options->render);
+  command->add_option("--detail", options->detail, "Segments around the axis of a man")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 512));
+  CLI::Option* scene = command->add_flag("--scene", options->scene, "Print the scene, JSON, and do not render");
+  command->footer(
+      "Examples:\n"
+      "  tilelight chess \"r1bqkbnr/pppp1ppp/2n5/4p3/2B1P3/5N2/PPPP1PPP/RNBQK2R b KQkq - 3 3\" -o italian.png\n"
+      "  tilelight chess \"8/8/8/4k3/8/8/4P3/4K3\" --scene > endgame.json");
+  command->callback([options, output, scene, &run] {
+    if (output->count() + scene->count() == 0) throw CLI::RequiredError("--output or --scene");
+    run = [options] {
+      if (const auto position = parse_fen(options->fen); !position) {
+        std::fprintf(stderr, "tilelight: %s\n", position.error().c_str());
+        return kBadInput;
+      }
+      const std::string text = chess_scene_json(options->fen, options->detail);
+      if (!options->scene) return run_render({"<chess>", text}, options->render);
+      std::fputs(text.c_str(), stdout);
+      return kOk;
+    };
+  });
+}
+
+void add_schema(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of the scene language");
+  command->footer("Example:\n  tilelight schema > scene.schema.json");
+  command->callback([&run] {
+    run = [] {
+      std::printf("%s\n", scene_schema_json(Limits{}).c_str());
+      return kOk;
+    };
+  });
+}
+
+}  // namespace
+
+ExitCode run_command_line(int argc, const char* const* argv) {
+  Run run;
+  CLI::App app("Renders scenes: the same scene gives the same bytes on every machine.", "tilelight");
+  app.set_version_flag("--version", "tilelight " TILELIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done; 1 the render failed or a file could not be read or written; 2 the command line or the\n"
+      "scene is wrong; 130 interrupted. `tilelight COMMAND --help` tells more of a command.");
+  add_render(app, run);
+  add_plan(app, run);
+  add_chess(app, run);
+  add_schema(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kBadInput;  // prints the help, the version or what is wrong
+  }
+  return run();
+}
+
+}  // namespace tilelight::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands: plain options in, exit code out. They print what they are asked for on standard output and what
+// went wrong on standard error.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/cli/exit_code.h"
+#include "renderer/cli/scene_source.h"
+
+namespace tilelight::cli {
+
+struct RenderArguments {
+  std::string output;  // a path ending in .png, .jpg or .exr; empty only with a pixel
+  std::string report;  // a path, "-", or empty
+  ViewOptions view;
+  int threads = 0;  // 0: one a core
+  int tile_px = 0;  // 0: chosen by the renderer
+  std::string isa = "auto";
+  std::vector<int> pixel;  // none, or x and y: explain instead of rendering
+  int sample = 0;          // which sample of the pixel
+};
+ExitCode run_render(const SceneText& source, const RenderArguments& arguments);
+
+struct PlanArguments {
+  ViewOptions view;
+  std::string isa = "auto";
+  bool json = false;
+};
+ExitCode run_plan(const SceneText& source, const PlanArguments& arguments);
+
+}  // namespace tilelight::cli

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "renderer/cli/commands.h"
+#include "renderer/cli/files.h"
+#include "renderer/cli/interrupt.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/renderer.h"
+#include "renderer/trace/isa.h"
+
+namespace tilelight::cli {
+namespace {
+
+ExitCode complain(ExitCode code, const std::string& what) {
+  std::fprintf(stderr, "tilelight: %s\n", what.c_str());
+  return code;
+}
+
+// Everything that can be refused before a ray is traced.
+ExitCode check_arguments(const RenderArguments& arguments) {
+  if (auto isa = select_isa(arguments.isa); !isa) return complain(kBadInput, isa.error().detail);
+  if (!arguments.pixel.empty()) return kOk;
+  if (!image_format_from_extension(arguments.output))
+    return complain(kBadInput, arguments.output + ": the ending names the format: .png, .jpg or .exr");
+  for (const std::string& path : {arguments.output, arguments.report})
+    if (auto writable = check_can_write(path); !path.empty() && !writable)
+      return complain(kFailed, writable.error().detail);
+  return kOk;
+}
+
+ExitCode explain(const CompiledScene& scene, const ViewPlan& plan, const RenderArguments& arguments) {
+  const auto json = explain_pixel_json(scene, plan, arguments.pixel[0], arguments.pixel[1], arguments.sample);
+  if (!json) return complain(kBadInput, json.error().detail);
+  std::printf("%s\n", json->c_str());
+  return kOk;
+}
+
+RenderProgress wait_for_end(Render& render, ProgressLine& line) {
+  constexpr double kLookMs = 100.0;  // how soon Ctrl-C is seen and how often the line changes
+  while (!render.wait_ms(kLookMs)) {
+    if (is_interrupted()) render.cancel();
+    line.show(render.progress());
+  }
+  return render.progress();
+}
+
+ExitCode write_results(const Render& render, const ViewPlan& plan, const RenderArguments& arguments) {
+  const auto format = image_format_from_extension(arguments.output);
+  const auto bytes = encode_image(*render.image(), plan.view.image.exposure, *format);
+  if (!bytes) return complain(kFailed, bytes.error().detail);
+  if (is_interrupted()) return kInterrupted;
+  if (auto written = write_output(arguments.output, *bytes); !written) return complain(kFailed, written.error().detail);
+  if (arguments.report.empty()) return kOk;
+  const std::string report = report_json(render.report(), plan.plan) + "\n";
+  if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
+  return kOk;
+}
+
+void print_summary(const RenderArguments& arguments, const ViewPlan& plan, const RenderProgress& progress) {
+  std::fprintf(stderr, "%s: %d x %d, %d samples a pixel, %.2f s (%s on %s)\n", arguments.output.c_str(),
+               plan.view.image.width, plan.view.image.height, progress.spp, progress.elapsed_ms / 1000.0,
+               plan.plan.kernel.c_str(), plan.plan.isa.c_str());
+}
+
+}  // namespace
+
+ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
+  if (const ExitCode code = check_arguments(arguments); code != kOk) return code;
+  auto parsed = parse_with_options(source, arguments.view);
+  if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
+  const auto& [scene, view] = std::tie(std::get<ParsedScene>(parsed).scene, std::get<ParsedScene>(parsed).view);
+
+  TilePool pool(arguments.threads);
+  const auto compiled = compile_scene(scene, pool);
+  const ViewPlan plan = plan_view(*compiled, view);
+  if (!arguments.pixel.empty()) return explain(*compiled, plan, arguments);
+  if (is_interrupted()) return kInterrupted;
+
+  RenderOptions options;
+  options.tile_px = arguments.tile_px;
+  const auto render = Render::start(pool, Priority::normal, compiled, plan, options);
+  ProgressLine line;
+  const RenderProgress end = wait_for_end(*render, line);
+  line.clear();
+  if (end.state == RenderState::cancelled) return complain(kInterrupted, "interrupted; nothing was written");
+  if (end.state == RenderState::failed) return complain(kFailed, "the render failed: " + end.error);
+  const ExitCode code = write_results(*render, plan, arguments);
+  if (code == kOk && line.is_terminal()) print_summary(arguments, plan, end);
+  return code;
+}
+
+}  // namespace tilelight::cli

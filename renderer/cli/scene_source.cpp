@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/cli/scene_source.h"
+
+#include <cstdio>
+
+#include "renderer/cli/files.h"
+
+namespace tilelight::cli {
+namespace {
+
+// The options as a view document, so that they meet the same limits and the same words as a scene's own.
+std::string view_json(const ViewOptions& options) {
+  std::string image, render;
+  auto add = [](std::string& members, const char* name, const std::optional<int>& value) {
+    if (value) members += (members.empty() ? "\"" : ", \"") + std::string(name) + "\": " + std::to_string(*value);
+  };
+  add(image, "width", options.width);
+  add(image, "height", options.height);
+  add(render, "samples", options.samples);
+  return R"({"image": {)" + image + R"(}, "render": {)" + render + "}}";
+}
+
+}  // namespace
+
+std::string errors_text(const std::string& name, const std::vector<SceneError>& errors) {
+  std::string text;
+  for (const SceneError& error : errors) {
+    text += name;
+    if (error.line > 0) text += ":" + std::to_string(error.line) + ":" + std::to_string(error.column);
+    text += ": " + (error.pointer.empty() ? "" : error.pointer + ": ") + error.detail;
+    if (!error.hint.empty()) text += " (" + error.hint + ")";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string warnings_text(const std::string& name, const std::vector<SceneWarning>& warnings) {
+  std::string text;
+  for (const SceneWarning& warning : warnings)
+    text += name + ": warning: " + (warning.pointer.empty() ? "" : warning.pointer + ": ") + warning.detail + "\n";
+  return text;
+}
+
+std::variant<SceneText, ExitCode> read_scene(const std::string& path) {
+  auto text = read_input(path, Limits{}.bytes);
+  if (!text) {
+    std::fprintf(stderr, "tilelight: %s\n", text.error().detail.c_str());
+    return kFailed;
+  }
+  return SceneText{path == "-" ? "<stdin>" : path, std::move(*text)};
+}
+
+std::variant<ParsedScene, ExitCode> parse_with_options(const SceneText& source, const ViewOptions& options) {
+  const Limits limits;
+  auto parsed = parse_scene(source.text, limits);
+  if (!parsed) {
+    std::fputs(errors_text(source.name, parsed.error().errors).c_str(), stderr);
+    return kBadInput;
+  }
+  std::fputs(warnings_text(source.name, parsed->warnings).c_str(), stderr);
+  auto view = parse_view(view_json(options), parsed->view, limits);
+  if (!view) {
+    for (SceneError& error : view.error().errors) error.line = 0;  // of a text that nobody wrote
+    std::fputs(errors_text("tilelight: options", view.error().errors).c_str(), stderr);
+    return kBadInput;
+  }
+  parsed->view = std::move(*view);
+  return std::move(*parsed);
+}
+
+}  // namespace tilelight::cli
