@@ -12,8 +12,9 @@ const kBrowserFlags = [
   '--disable-component-update', '--disable-sync',
 ];
 const kShots = new URL('./shots/', import.meta.url).pathname;
-const kPatienceMs = 60_000;  // a first picture on a busy machine
+const kPatienceMs = 180_000;  // a finished picture on a busy machine
 
+export const kSmall = { viewport: { width: 768, height: 480 } };  // what most tests need; a picture of it is quick
 export const kDesktop = { viewport: { width: 1440, height: 900 } };
 export const kPhone = { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 
@@ -26,8 +27,8 @@ export async function startServer() {
   const url = await new Promise((resolve, reject) => {
     const read = (text) => {
       output += text;
-      const line = output.split('\n').slice(0, -1).find((one) => /http:\/\//.test(one) && !/admin/i.test(one));
-      if (line) resolve(/http:\/\/[\w.:[\]]+/.exec(line)[0]);
+      const announced = /^Tilelight is at (\S+)\/$/m.exec(output);
+      if (announced) resolve(announced[1]);
     };
     server.stdout.on('data', read);
     server.stderr.on('data', read);
@@ -45,7 +46,7 @@ export async function startServer() {
 // Runs `body({page, server, context})` on a loaded page with a finished first picture, and holds the page to a clean
 // console: no errors, no exceptions, no breach of the content security policy. `expected` = patterns of console lines
 // that the test provokes.
-export async function onPage({ server, settings = kDesktop, path: where = '/', expected = [] }, body) {
+export async function onPage({ server, settings = kSmall, path: where = '/', expected = [] }, body) {
   const profile = await mkdtemp(path.join(tmpdir(), 'tilelight-browser-'));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath: process.env.CHROMIUM, args: kBrowserFlags, headless: true, ...settings,

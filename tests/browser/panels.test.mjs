@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
-import { afterMoving, finished, kDesktop, kPhone, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
+import { afterMoving, finished, kDesktop, kPhone, kSmall, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
 
 const run = promisify(execFile);
 const kPngSignature = '89504e470d0a1a0a';
@@ -44,7 +44,7 @@ test('every scene of the picker has a title, a small picture, and can be shown',
     const count = await page.locator('.scene').count();
     assert.ok(count >= 8);
     await page.waitForFunction((n) => document.querySelectorAll('.scene-thumb img').length === n, count);
-    await shoot(page, 'desktop-scenes');
+    await shoot(page, 'small-scenes');
     for (let i = 1; i <= count; ++i) {
       await afterMoving(page, () => page.click(`li:nth-child(${i % count + 1}) > .scene`));
       titles.add(await page.textContent('#scene-title'));
@@ -90,7 +90,7 @@ test('a FEN that is no position says so in its place, and the picture stays', as
     await page.waitForFunction(() => document.getElementById('fen-error').textContent !== '');
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'true');
     assert.equal(await look(page), before);
-    await shoot(page, 'desktop-fen-error');
+    await shoot(page, 'small-fen-error');
     await page.fill('#fen', '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1');
     await page.waitForFunction(() => document.getElementById('fen-error').textContent === '');
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
@@ -116,7 +116,7 @@ test('a mistake in the scene is marked on its line, explained, and a click leads
       return area.value.slice(area.selectionStart, area.selectionEnd);
     });
     assert.match(selected, /^("colour"|3)$/);
-    await shoot(page, 'desktop-editor-error');
+    await shoot(page, 'small-editor-error');
   });
 });
 
@@ -160,7 +160,7 @@ test('the plan says what is in use and what was left out and why', async () => {
     assert.ok(await page.locator('.left-out dt').count() > 0);
     assert.equal(await page.locator('.left-out dt').count(), await page.locator('.left-out dd').count());
     assert.match(await page.textContent('#plan-body'), /Triangles/);
-    await shoot(page, 'desktop-plan');
+    await shoot(page, 'small-plan');
   });
 });
 
@@ -169,15 +169,15 @@ test('the download is the very picture on the screen', async () => {
     await page.focus('#picture');
     await afterMoving(page, () => page.keyboard.press('Shift+ArrowRight'));
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download-button')]);
-    assert.equal(download.suggestedFilename(), 'tilelight-opening-1440x900.png');
+    assert.equal(download.suggestedFilename(), 'tilelight-opening-768x480.png');
     const bytes = await readFile(await download.path());
-    assert.deepEqual(pngSize(bytes), { width: 1440, height: 900 });
+    assert.deepEqual(pngSize(bytes), kSmall.viewport);
     assert.equal(await lookOfPng(page, bytes), await look(page));
   });
 });
 
 test('the copied curl command runs and gives the picture on the screen', async () => {
-  const settings = { viewport: { width: 800, height: 500 }, permissions: ['clipboard-read', 'clipboard-write'] };
+  const settings = { ...kSmall, permissions: ['clipboard-read', 'clipboard-write'] };
   await onPage({ server, settings }, async ({ page }) => {
     await page.click('#curl-button');
     await page.waitForSelector('.toast.is-shown:has-text("copied")');
@@ -186,7 +186,7 @@ test('the copied curl command runs and gives the picture on the screen', async (
     try {
       await run('sh', ['-c', command], { cwd: folder });
       const bytes = await readFile(path.join(folder, 'tilelight.png'));
-      assert.deepEqual(pngSize(bytes), { width: 800, height: 500 });
+      assert.deepEqual(pngSize(bytes), kSmall.viewport);
       assert.equal(await lookOfPng(page, bytes), await look(page));
     } finally {
       await rm(folder, { recursive: true });
@@ -195,7 +195,7 @@ test('the copied curl command runs and gives the picture on the screen', async (
 });
 
 test('a link leads back to the same scene from the same place', async () => {
-  const settings = { viewport: { width: 800, height: 500 }, permissions: ['clipboard-read', 'clipboard-write'] };
+  const settings = { ...kSmall, permissions: ['clipboard-read', 'clipboard-write'] };
   await onPage({ server, settings, path: '/#scene=knight' }, async ({ page, context }) => {
     assert.equal(await page.textContent('#scene-title'), 'Knight');
     await page.focus('#picture');

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture and the hand: what is shown, how it moves, and that the newest view wins.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
-import { afterMoving, finished, kDesktop, kPhone, look, onPage, shoot, startServer } from './harness.mjs';
+import { afterMoving, finished, kDesktop, kPhone, kSmall, look, onPage, shoot, startServer } from './harness.mjs';
 
 let server;
 before(async () => { server = await startServer(); });
 after(() => server.stop());
 
-const kMiddle = { x: 700, y: 450 };
+const kMiddle = { x: 380, y: 250 };
+const kHome = JSON.parse(await readFile(new URL('../../web/scenes/opening.json', import.meta.url), 'utf8')).camera;
+const distanceOf = ({ position, target }) => Math.hypot(...position.map((x, i) => x - target[i]));
 
 async function drag(page, dx, dy, { button = 'left', steps = 12 } = {}) {
   await page.mouse.move(kMiddle.x, kMiddle.y);
@@ -45,11 +48,11 @@ for (const colorScheme of ['dark', 'light']) {
 test('a drag with the left button orbits and keeps the target', async () => {
   await onPage({ server }, async ({ page }) => {
     const views = sentViews(page);
-    await afterMoving(page, () => drag(page, 260, 40));
+    await afterMoving(page, () => drag(page, 160, 30));
     const { position, target } = views.at(-1).camera;
-    assert.deepEqual(target, [0.15, 0.15, 0.2]);
-    assert.ok(position[1] > 4.3, 'a drag down lifts the camera');
-    await shoot(page, 'desktop-orbited');
+    assert.deepEqual(target, kHome.target);
+    assert.ok(position[1] > kHome.position[1], 'a drag down lifts the camera');
+    await shoot(page, 'small-orbited');
   });
 });
 
@@ -58,20 +61,20 @@ test('a drag with the right button pans', async () => {
     const views = sentViews(page);
     await afterMoving(page, () => drag(page, -120, 0, { button: 'right' }));
     const { position, target } = views.at(-1).camera;
-    assert.ok(target[0] > 0.5, 'a drag to the left brings what is on the right');
-    assert.ok(Math.abs(position[0] - 7.2 - (target[0] - 0.15)) < 1e-3, 'camera and target go together');
+    const shift = target[0] - kHome.target[0];
+    assert.ok(shift > 0.4, 'a drag to the left brings what is on the right');
+    assert.ok(Math.abs(position[0] - kHome.position[0] - shift) < 1e-3, 'camera and target go together');
   });
 });
 
 test('the wheel zooms to the cursor', async () => {
   await onPage({ server }, async ({ page }) => {
     const views = sentViews(page);
-    await page.mouse.move(1100, 300);
+    await page.mouse.move(600, 160);
     await afterMoving(page, () => page.mouse.wheel(0, -400));
-    const { position, target } = views.at(-1).camera;
-    const distance = Math.hypot(...position.map((x, i) => x - target[i]));
-    assert.ok(distance < 11, `nearer than before: ${distance}`);
-    assert.ok(target[0] > 0.2, 'the target goes toward the cursor');
+    const { camera } = views.at(-1);
+    assert.ok(distanceOf(camera) < 0.8 * distanceOf(kHome), 'nearer than before');
+    assert.ok(camera.target[0] > kHome.target[0], 'the target goes toward the cursor');
   });
 });
 
@@ -91,12 +94,12 @@ test('arrow keys move the picture that has the focus, and R goes back', async ()
 test('while moving the picture is smaller, and at rest it is whole', async () => {
   await onPage({ server }, async ({ page }) => {
     const views = sentViews(page);
-    await afterMoving(page, () => drag(page, 300, 0, { steps: 40 }));
+    await afterMoving(page, () => drag(page, 200, 0, { steps: 40 }));
     const moving = views.filter((view) => view.moving);
     assert.ok(moving.length >= 2, `${moving.length} moving views`);
-    assert.ok(moving.every(({ image }) => image.width <= 1440));
+    assert.ok(moving.every(({ image }) => image.width <= 768));
     assert.equal(views.at(-1).moving, false);
-    assert.deepEqual(views.at(-1).image, { width: 1440, height: 900 });
+    assert.deepEqual(views.at(-1).image, kSmall.viewport);
   });
 });
 
@@ -109,7 +112,7 @@ test('frames never go back to an older view, and the newest view is the one that
       if (seq) frames.push(Number(seq));
     });
     await afterMoving(page, async () => {
-      for (const dx of [200, -340, 280, -90]) await drag(page, dx, dx / 5, { steps: 6 });
+      for (const dx of [200, -240, 180, -90]) await drag(page, dx, dx / 5, { steps: 6 });
     });
     assert.deepEqual(frames, [...frames].sort((a, b) => a - b));
     assert.equal(frames.at(-1), views.at(-1).seq);
@@ -141,7 +144,7 @@ test('without the server the last picture stays, and the page goes on when it is
     await drag(page, 150, 0);
     await page.waitForSelector('#notice:has-text("cannot be reached")');
     assert.equal(await look(page), first);
-    await shoot(page, 'desktop-offline');
+    await shoot(page, 'small-offline');
     await context.setOffline(false);
     await page.waitForSelector('#notice', { state: 'hidden' });
     await page.waitForFunction((old) => window.glance() !== old, glanced, { polling: 100 });
@@ -149,7 +152,7 @@ test('without the server the last picture stays, and the page goes on when it is
 });
 
 test('one finger orbits and two fingers zoom', async () => {
-  await onPage({ server, settings: kPhone }, async ({ page, context }) => {
+  await onPage({ server, settings: { ...kPhone, deviceScaleFactor: 1 } }, async ({ page, context }) => {
     const views = sentViews(page);
     const touch = await context.newCDPSession(page);
     const send = (type, ...points) => touch.send('Input.dispatchTouchEvent', {
@@ -161,13 +164,12 @@ test('one finger orbits and two fingers zoom', async () => {
       await send('touchEnd');
     });
     const orbited = views.at(-1).camera;
-    assert.deepEqual(orbited.target, [0.15, 0.15, 0.2]);
+    assert.deepEqual(orbited.target, kHome.target);
     await afterMoving(page, async () => {
       await send('touchStart', [150, 370], [210, 370]);
       for (let d = 0; d <= 60; d += 10) await send('touchMove', [150 - d, 370], [210 + d, 370]);
       await send('touchEnd');
     });
-    const distance = ({ position, target }) => Math.hypot(...position.map((x, i) => x - target[i]));
-    assert.ok(distance(views.at(-1).camera) < 0.6 * distance(orbited), 'fingers that spread come nearer');
+    assert.ok(distanceOf(views.at(-1).camera) < 0.6 * distanceOf(orbited), 'fingers that spread come nearer');
   });
 });

@@ -43,7 +43,7 @@ function chips(names) {
 function leftOut(entries) {
   if (entries.length === 0) return el('p', { class: 'muted' }, 'Nothing: this scene uses all there is.');
   return el('dl', { class: 'left-out' },
-    ...entries.flatMap(({ what, why }) => [el('dt', {}, words(what)), el('dd', {}, why)]));
+    ...entries.flatMap(({ what, why }) => [el('dt', {}, words(what).replace(/^feature /, '')), el('dd', {}, why)]));
 }
 
 function warnings(entries) {
@@ -61,7 +61,7 @@ function facts(plan) {
     ['Instruction set', plan.isa],
     ['Compiling', milliseconds(plan.compile_ms)],
     ['Planning', milliseconds(plan.plan_ms)],
-    ['Rays ahead', plan.predicted_mrays === undefined ? null : `about ${plan.predicted_mrays.toPrecision(2)} million`],
+    ['Rays ahead', !plan.predicted_mrays ? null : `about ${plan.predicted_mrays.toPrecision(2)} million`],
   ];
   return el('dl', { class: 'facts' },
     ...rows.filter(([, value]) => value).flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, String(value))]));

@@ -23,7 +23,7 @@ export class Status {
     const pixels = `${size.width} × ${size.height}`;
     if (moving) {
       this.#since = performance.now();
-      this.#set(0, 'Moving', pixels);
+      this.#set(0, 'Preview', pixels);
       return;
     }
     const share = frame.isFinal ? 1 : this.#total ? frame.spp / this.#total : 0.5;

@@ -52,13 +52,14 @@ export class Viewer {
   }
 
   // Shows a scene. `camera` = where to look from, instead of the scene's own camera.
-  async open(sceneText, camera) {
+  open(sceneText, camera) {
     return this.#session.open(sceneText, (info) => {
       this.#inertia.stop();
       this.#home = info.camera;
       this.#pictureAspect = info.image.width / info.image.height;
       this.#camera = { ...info.camera, ...camera };
-      return this.#view(false);
+      this.#restSoon();
+      return this.#view(true);  // a small picture at once is better than a large one later
     });
   }
 
