@@ -43,7 +43,6 @@ export function attachGestures(element, { move, reset }) {
 
   element.addEventListener('pointerdown', (event) => {
     element.setPointerCapture(event.pointerId);
-    element.focus({ preventScroll: true });
     const origin = cursorAt(event.clientX, event.clientY);
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, action: actionOf(event), origin });
   });

@@ -24,7 +24,7 @@ export function showTimings(container, timings) {
   place.hidden = false;
   place.replaceChildren(el('h3', {}, 'This picture'),
     el('dl', { class: 'facts' },
-      ...rows.flatMap(([name, ms]) => [el('dt', {}, kTimingNames[name] ?? words(name)), el('dd', {}, milliseconds(ms))])));
+      ...rows.flatMap(([name, ms]) => [el('dt', {}, kTimingNames[name] ?? words(name)), el('dd', {}, duration(ms))])));
 }
 
 function block(title, ...content) {
@@ -59,8 +59,8 @@ function facts(plan) {
     ['Memory', bytes(plan.memory_bytes)],
     ['Kernel', plan.kernel],
     ['Instruction set', plan.isa],
-    ['Compiling', milliseconds(plan.compile_ms)],
-    ['Planning', milliseconds(plan.plan_ms)],
+    ['Compiling', duration(plan.compile_ms)],
+    ['Planning', duration(plan.plan_ms)],
     ['Rays ahead', !plan.predicted_mrays ? null : `about ${plan.predicted_mrays.toPrecision(2)} million`],
   ];
   return el('dl', { class: 'facts' },
@@ -83,6 +83,8 @@ function bytes(n) {
   return `${(n / 1024 / 1024).toFixed(1)} MiB`;
 }
 
-function milliseconds(ms) {
-  return ms === undefined ? null : `${ms < 10 ? ms.toFixed(2) : Math.round(ms)} ms`;
+function duration(ms) {
+  if (ms === undefined) return null;
+  if (ms >= 1000) return `${(ms / 1000).toFixed(1)} s`;
+  return ms >= 1 ? `${Math.round(ms)} ms` : `${Math.round(ms * 1000)} µs`;
 }
