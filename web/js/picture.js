@@ -43,7 +43,6 @@ export class Picture {
     const ratio = Math.max(width / this.#bitmap.width, height / this.#bitmap.height);
     const w = this.#bitmap.width * ratio;
     const h = this.#bitmap.height * ratio;
-    this.#context.imageSmoothingQuality = 'high';
     this.#context.drawImage(this.#bitmap, (width - w) / 2, (height - h) / 2, w, h);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An interactive session with the server: views go out, frames come back, and the newest view wins. A moving view waits
-// until the one before it was seen, so views never queue up; a still one goes at once. A session that expired, a server
+// An interactive session with the server: views go out, frames come back, and the newest view wins. A moving view is
+// seen before the next one goes, so views never queue up; a still one gives way at once. A session that expired, a server
 // that is busy or cannot be reached are lived through; the last wish is kept and sent again.
 import { Problem, Unreachable } from './api.js';
 
@@ -23,6 +23,7 @@ export class ViewSession {
   #isFinal = false;      // and that frame was its last
   #frameNumber = 0;
   #polling = null;       // AbortController of the wait for frames
+  #overdueTimer = 0;
   #recovery = null;      // token of the attempt to go on after a failure
 
   // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, latencyMs with the first frame
@@ -66,6 +67,7 @@ export class ViewSession {
     this.#polling = null;
     this.#recovery = null;
     this.#id = id;
+    this.#sent = { seq: 0 };
     this.#frameNumber = 0;
     this.#on.state('live');
   }
@@ -77,8 +79,13 @@ export class ViewSession {
 
   #send() {
     if (!this.#id || this.#recovery || this.#sent.seq === this.#wanted.seq) return;
-    if (this.#wanted.moving && this.#sent.moving && this.#seenSeq < this.#sent.seq) {
-      if (this.#now() - this.#sent.atMs < kOverdueMs) return;
+    if (this.#sent.moving && this.#seenSeq < this.#sent.seq) {
+      const leftMs = this.#sent.atMs + kOverdueMs - this.#now();
+      if (leftMs > 0) {
+        clearTimeout(this.#overdueTimer);
+        this.#overdueTimer = setTimeout(() => this.#send(), leftMs);
+        return;
+      }
       this.#on.overdue();
     }
     const id = this.#id;

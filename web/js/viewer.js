@@ -10,7 +10,7 @@ import { kOverdueMs, ViewSession } from './session.js';
 
 const kRestMs = 140;      // without movement before the full picture is asked for
 const kResizeMs = 120;
-const kFirstScale = 0.4;
+const kFirstScale = 0.25;
 const kMaxStepMs = 50;    // a tab that slept does not jump
 
 export class Viewer {

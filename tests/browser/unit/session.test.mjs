@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The session against a server played by the test: which views go out, when, and what is done about failures.
+import assert from 'node:assert/strict';
+import { setImmediate as turn } from 'node:timers/promises';
+import { test } from 'node:test';
+import { Problem, Unreachable } from '../../../web/js/api.js';
+import { kOverdueMs, Superseded, ViewSession } from '../../../web/js/session.js';
+
+// A server that remembers what it was sent and answers frames when told to.
+function playServer() {
+  const server = { opened: 0, closed: [], views: [], states: [], frames: [], overdue: 0, failPut: null, nowMs: 0 };
+  let waiting = [];
+  let number = 0;
+  server.api = {
+    openSession: async () => ({ id: `s${++server.opened}` }),
+    closeSession: async (id) => server.closed.push(id),
+    putView: async (id, view) => {
+      const error = server.failPut;
+      server.failPut = null;
+      if (error) throw error;
+      server.views.push({ id, ...view });
+    },
+    nextFrame: (id, after, format, signal) => new Promise((resolve, reject) => {
+      waiting.push(resolve);
+      signal.addEventListener('abort', () => reject(Object.assign(new Error(), { name: 'AbortError' })));
+    }),
+  };
+  server.answer = async (viewSeq, isFinal = true) => {
+    const answered = waiting;
+    waiting = [];
+    answered.forEach((resolve) => resolve({ number: ++number, viewSeq, isFinal, timings: {} }));
+    await turn();
+  };
+  server.session = new ViewSession({
+    api: server.api,
+    now: () => server.nowMs,
+    on: {
+      frame: (event) => server.frames.push(event),
+      overdue: () => ++server.overdue,
+      state: (name) => server.states.push(name),
+    },
+  });
+  return server;
+}
+
+const moving = (x) => ({ camera: { x }, moving: true });
+const still = (x) => ({ camera: { x }, moving: false });
+const sentX = (server) => server.views.map(({ camera }) => camera.x);
+
+test('of many views while one is being drawn, only the newest goes out', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => moving(0));
+  for (let x = 1; x <= 9; ++x) server.session.look(moving(x));
+  await turn();
+  assert.deepEqual(sentX(server), [0]);
+  await server.answer(server.views[0].seq);
+  assert.deepEqual(sentX(server), [0, 9]);
+});
+
+test('a view that moves interrupts one that refines, at once', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => still(0));
+  server.session.look(moving(1));
+  await turn();
+  assert.deepEqual(sentX(server), [0, 1]);
+});
+
+test('the last small picture is seen before the full one is asked for', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => moving(0));
+  server.session.look(still(1));
+  await turn();
+  assert.deepEqual(sentX(server), [0]);
+  await server.answer(server.views[0].seq);
+  assert.deepEqual(sentX(server), [0, 1]);
+});
+
+test('a moving view that never comes is given up for a newer one', async (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const server = playServer();
+  await server.session.open('{}', () => moving(0));
+  server.session.look(still(1));
+  server.nowMs = kOverdueMs;
+  t.mock.timers.tick(kOverdueMs);
+  await turn();
+  assert.deepEqual(sentX(server), [0, 1]);
+  assert.equal(server.overdue, 1);
+});
+
+test('latency is told with the first frame of a view and not with its refinements', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => still(0));
+  server.nowMs = 70;
+  await server.answer(1, false);
+  server.nowMs = 90;
+  await server.answer(1, true);
+  assert.deepEqual(server.frames.map(({ latencyMs }) => latencyMs), [70, null]);
+});
+
+test('a session that is gone is opened anew and shown the newest view', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => still(0));
+  server.failPut = new Problem(404, {});
+  server.session.look(still(5));
+  await turn();
+  await turn();
+  assert.equal(server.opened, 2);
+  assert.equal(server.views.at(-1).id, 's2');
+  assert.equal(server.views.at(-1).camera.x, 5);
+  assert.ok(server.views.at(-1).seq > server.views[0].seq, 'a frame of before cannot be taken for a new one');
+});
+
+test('a server out of reach is asked again, and the last wish is kept', async (t) => {
+  const server = playServer();
+  await server.session.open('{}', () => still(0));
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  server.failPut = new Unreachable();
+  server.session.look(still(5));
+  await turn();
+  assert.equal(server.states.at(-1), 'offline');
+  t.mock.timers.tick(500);
+  await turn();
+  assert.equal(server.states.at(-1), 'live');
+  assert.equal(server.views.at(-1).camera.x, 5);
+  assert.equal(server.opened, 1);
+});
+
+test('of two scenes opened at once the later stays and the earlier is closed', async () => {
+  const server = playServer();
+  const first = server.session.open('{}', () => still(0));
+  const second = server.session.open('{}', () => still(1));
+  await assert.rejects(first, Superseded);
+  await second;
+  assert.deepEqual(server.closed, ['s1']);
+  assert.deepEqual(sentX(server), [1]);
+});
+
+test('a scene that the server refuses leaves the one on show alone', async () => {
+  const server = playServer();
+  await server.session.open('{}', () => still(0));
+  server.api.openSession = async () => { throw new Problem(422, { detail: 'no' }); };
+  await assert.rejects(server.session.open('{', () => still(1)), Problem);
+  server.session.look(still(2));
+  await turn();
+  assert.deepEqual(server.closed, []);
+  assert.equal(server.views.at(-1).id, 's1');
+});
