@@ -93,7 +93,9 @@ double find_radiance_bound(const CompiledScene& scene) {
     const double ambient = max_channel(scene.ambient * max_color(m.source.ambient));
     const double lit = max_channel(max_color(m.source.diffuse) + m.source.specular);
     local = std::max(local, ambient + light_sum * lit);
-    passed_on = std::max(passed_on, max_channel(m.source.reflection + m.source.transmission));
+    const Color &kr = m.source.reflection, &kt = m.source.transmission;
+    const bool is_shared = m.source.fresnel && m.is_transmissive;  // kr F + kt (1 - F)
+    passed_on = std::max(passed_on, max_channel(is_shared ? glm::max(kr, kt) : kr + kt));
   }
   if (passed_on >= 1.0) return -1.0;
   const double sky = std::max(max_channel(scene.background.bottom), max_channel(scene.background.top));

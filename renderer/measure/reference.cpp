@@ -127,10 +127,11 @@ class Sample {
       ior_from = here.ior(scene_), ior_to = beyond.ior(scene_);
     }
     const Refraction through = refracted(path.ray.direction, at.geometric, at.shading, ior_from, ior_to);
-    if (!through.direction) {
+    const bool is_bending = scene_.is_medium(at.hit.body) && ior_from != ior_to;
+    if (material.fresnel && is_bending) {
+      kr *= through.fresnel, kt *= 1.0 - through.fresnel;
+    } else if (!through.direction) {
       kr += kt, kt = Color(0.0);
-    } else if (material.fresnel) {
-      kr += kt * through.fresnel, kt *= 1.0 - through.fresnel;
     }
     const Vec3 mirror = reflected(path.ray.direction, at.geometric, at.shading);
     push(path, at, ReferenceRayKind::reflected, kr, mirror, std::move(here),

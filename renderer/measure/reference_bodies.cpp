@@ -239,7 +239,10 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit) {
 PatternPoint pattern_at(const ReferenceBody& body, const Hit& hit) {
   const Vec3 point = transform_point(body.pattern_from_local, hit.local);
   if (body.kind == BodyKind::sphere) return {point, -1};
-  return {point, dominant_axis(body.pattern_normal_from_local * local_normal(body, hit))};
+  // A facet at 45 degrees has two dominant axes; the first one counts, not the one that rounding favours.
+  Vec3 n = glm::abs(glm::normalize(body.pattern_normal_from_local * local_normal(body, hit)));
+  n.x += 0x1p-20, n.y += 0x1p-21;
+  return {point, dominant_axis(n)};
 }
 
 std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, const Vec3& origin,

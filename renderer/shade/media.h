@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MediaSet: the transparent bodies a ray is inside of, in the order of entering. The medium that counts is the one of
-// the highest priority, among equals the one entered last (after Schmidt and Budge 2002); a surface between equal media
-// is passed unseen. Plain value.
+// the highest priority, among equals the one entered last (after Schmidt and Budge 2002). Plain value.
 #pragma once
 
 #include <array>
@@ -17,15 +16,21 @@ class MediaSet {
   static constexpr int kCapacity = 16;  // deeper nesting keeps the first sixteen
 
   void enter(uint32_t body) {
-    leave(body);
     if (count_ < kCapacity) bodies_[count_++] = body;
   }
+  // Takes the last entry of the body away.
   void leave(uint32_t body) {
-    int kept = 0;
+    int last = count_ - 1;
+    while (last >= 0 && bodies_[last] != body) --last;
+    if (last < 0) return;
+    for (int i = last; i + 1 < count_; ++i) bodies_[i] = bodies_[i + 1];
+    --count_;
+  }
+  bool contains(uint32_t body) const {
     for (int i = 0; i < count_; ++i) {
-      if (bodies_[i] != body) bodies_[kept++] = bodies_[i];
+      if (bodies_[i] == body) return true;
     }
-    count_ = kept;
+    return false;
   }
   // The body whose medium counts; kNone: the open air.
   uint32_t top(const CompiledScene& scene) const {
@@ -46,6 +51,23 @@ class MediaSet {
   }
   std::array<uint32_t, kCapacity> bodies_{};
   int count_ = 0;
+};
+
+// The media on both sides of a medium's surface, as a ray meets it.
+struct Crossing {
+  MediaSet before, after;
+  bool is_seen = true;  // false where another medium fills the inner side: the surface is passed unbent
+
+  Crossing(const CompiledScene& scene, const MediaSet& media, uint32_t body, bool from_outside)
+      : before(media), after(media) {
+    MediaSet& inner = from_outside ? after : before;
+    // A body that is left without having been entered counts as entered.
+    if (from_outside || !inner.contains(body)) inner.enter(body);
+    is_seen = inner.top(scene) == body;
+    if (from_outside) return;
+    after = before;
+    after.leave(body);
+  }
 };
 
 }  // namespace tilelight

@@ -57,14 +57,14 @@ Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double
   if (!bent.is_total && glm::dot(bent.direction, surface.geometric_normal) >= 0.0) {
     bent = refract(incoming, surface.geometric_normal, eta);
   }
-  if (bent.is_total) {
+  if (m.fresnel) {
+    out.mirror_weight = m.reflection * bent.fresnel;
+  } else if (bent.is_total) {
     out.mirror_weight += m.transmission;
-    return out;
   }
-  const double reflected_share = m.fresnel ? bent.fresnel : 0.0;
+  if (bent.is_total) return out;
   out.refracted = bent.direction;
-  out.mirror_weight += m.transmission * reflected_share;
-  out.refract_weight = m.transmission * (1.0 - reflected_share);
+  out.refract_weight = m.fresnel ? m.transmission * (1.0 - bent.fresnel) : m.transmission;
   return out;
 }
 

@@ -19,8 +19,8 @@ struct Scatter {
 Scatter scatter_opaque(const Surface& surface, const Vec3& incoming);
 
 // A transparent surface. ior_before, ior_after: of the media on this and on the other side; equal for thin surfaces.
-// Snell's law; total internal reflection sends kr + kt into the mirror direction. With Material::fresnel the share F
-// of kt is reflected (unpolarised dielectric).
+// Snell's law; total internal reflection sends kr + kt into the mirror direction. With Material::fresnel the weights
+// are kr F and kt (1 - F), F the reflectance of unpolarised light, 1 in total reflection.
 Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after);
 
 }  // namespace tilelight

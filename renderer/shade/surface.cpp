@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/shade/surface.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tilelight {
@@ -64,8 +65,10 @@ Color checker_color(const Checker& checker, const CompiledBody& body, const Loca
   int dominant = -1;
   if (body.kind != BodyKind::sphere) {
     // The pattern frame differs from the local one by a uniform scale and a shift, so normals keep their direction.
+    // Of axes that rounding cannot tell apart (facets at 45 degrees) the first counts.
     const Vec3 n = glm::abs(p.geometric);
-    dominant = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+    const double nearly = (1.0 - 0x1p-20) * std::max({n.x, n.y, n.z});
+    dominant = n.x >= nearly ? 0 : n.y >= nearly ? 1 : 2;
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (axis != dominant) cells += std::floor(place[axis]);

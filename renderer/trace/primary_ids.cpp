@@ -29,11 +29,11 @@ std::vector<uint64_t> primary_ids(const CompiledScene& scene, const ViewPlan& pl
   first_hits.view.render.shadows = false;
   PrimaryListener listener(scene);
   TileCounts counts;
-  const MediaSet open_air;
+  const MediaSet eye_media = media_at_eye(scene, plan);
   TileJob job;
   job.scene = &scene;
   job.plan = &first_hits;
-  job.eye_media = &open_air;
+  job.eye_media = &eye_media;
   job.rect = {0, 0, plan.view.image.width, plan.view.image.height};
   job.counts = &counts;
   job.listener = &listener;

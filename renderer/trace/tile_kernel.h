@@ -70,7 +70,10 @@ class TileKernel {
       next_.clear();
       shadow_rays_.clear();
       pending_.clear();
-      for (size_t i = 0; i < hits_.size(); ++i) shade(level_.rays[i].ray, level_.paths[i], hits_[i]);
+      for (size_t i = 0; i < hits_.size(); ++i) {
+        if constexpr (kCan.glass) pass_unseen(level_.rays[i], level_.paths[i], hits_[i]);
+        shade(level_.rays[i].ray, level_.paths[i], hits_[i]);
+      }
       if constexpr (kCan.shadows) {
         find_visible(shadow_rays_);
         for (size_t i = 0; i < pending_.size(); ++i) radiance_[pending_[i].sample] += pending_[i].light * visible_[i];
@@ -109,9 +112,6 @@ class TileKernel {
       return;
     }
     const Surface surface = make_surface(scene_, ray, hit);
-    if constexpr (kCan.glass) {
-      if (surface.material->is_transmissive && surface.body->closed && pass_unseen(ray, path, surface)) return;
-    }
     const Color ambient = scene_.ambient * surface.ambient;
     radiance_[path.sample] += path.weight * ambient;
     if constexpr (kCan.listens) listen(ray, path, hit, &surface, ambient);
@@ -175,82 +175,61 @@ class TileKernel {
     return visible_[0];
   }
 
-  // A surface with the same medium on both sides is not there: the ray goes on, no deeper than before.
-  bool pass_unseen(const Ray& ray, const Path& path, const Surface& surface) {
-    MediaSet after = media_[path.media];
-    const uint32_t before_top = after.top(scene_);
-    if (surface.from_outside) {
-      after.enter(surface.here.body);
-    } else {
-      after.leave(surface.here.body);
+  bool is_medium(uint32_t body) const {
+    return scene_.bodies[body].closed && scene_.materials[scene_.bodies[body].material].is_transmissive;
+  }
+
+  // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the ray
+  // gets no deeper.
+  void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
+    while (hit.is_hit() && is_medium(hit.body)) {
+      const Surface surface = make_surface(scene_, ray.ray, hit);
+      const Crossing crossing(scene_, media_[path.media], hit.body, surface.from_outside);
+      if (crossing.is_seen) return;
+      path.media = keep(crossing.after);
+      ray.ray = {surface.position, ray.ray.direction, surface.here};
+      trace_closest(scene_, {&ray, 1}, {&hit, 1});
     }
-    if (after.top(scene_) != before_top) return false;
-    if (!spend(path.sample, path.weight)) return true;
-    Path on = path;
-    on.media = static_cast<uint32_t>(media_.size());
-    media_.push_back(after);
-    next_.push({surface.position, ray.direction, surface.here}, on);
-    ++counts_.refracted;
-    return true;
+  }
+
+  uint32_t keep(const MediaSet& media) {
+    media_.push_back(media);
+    return static_cast<uint32_t>(media_.size() - 1);
   }
 
   void scatter(const Ray& ray, const Path& path, const Surface& surface) {
     const CompiledMaterial& m = *surface.material;
     if (!m.is_reflective && !(kCan.glass && m.is_transmissive)) return;
+    uint32_t here = path.media, beyond = path.media;
     Scatter out;
-    uint32_t media_after = path.media;
-    if constexpr (kCan.glass) {
-      if (m.is_transmissive && surface.body->closed) {
-        MediaSet after = media_[path.media];
-        const double ior_before = after.ior(scene_);
-        if (surface.from_outside) {
-          after.enter(surface.here.body);
-        } else {
-          after.leave(surface.here.body);
-        }
-        out = scatter_transparent(surface, ray.direction, ior_before, after.ior(scene_));
-        if (is_followed(path, out.refract_weight)) {
-          media_after = static_cast<uint32_t>(media_.size());
-          media_.push_back(after);
-        }
-      } else if (m.is_transmissive) {
-        out = scatter_transparent(surface, ray.direction, 1.0, 1.0);  // thin
-      } else {
-        out = scatter_opaque(surface, ray.direction);
-      }
-    } else {
+    if (!kCan.glass || !m.is_transmissive) {
       out = scatter_opaque(surface, ray.direction);
+    } else if (is_medium(surface.here.body)) {
+      const Crossing crossing(scene_, media_[path.media], surface.here.body, surface.from_outside);
+      out = scatter_transparent(surface, ray.direction, crossing.before.ior(scene_), crossing.after.ior(scene_));
+      here = keep(crossing.before), beyond = keep(crossing.after);
+    } else {
+      out = scatter_transparent(surface, ray.direction, 1.0, 1.0);  // thin
     }
-    if (follow(path, surface, out.mirrored, out.mirror_weight, path.media, "reflected")) ++counts_.reflected;
+    if (follow(path, surface, out.mirrored, out.mirror_weight, here, "reflected")) ++counts_.reflected;
     if constexpr (kCan.glass) {
-      if (follow(path, surface, out.refracted, out.refract_weight, media_after, "refracted")) ++counts_.refracted;
+      if (follow(path, surface, out.refracted, out.refract_weight, beyond, "refracted")) ++counts_.refracted;
     }
   }
 
   static double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
-  bool is_followed(const Path& path, const Color& factor) const {
-    return path.depth < spec_.max_depth && largest(path.weight * factor) >= spec_.weight_cutoff;
-  }
-
-  bool spend(uint32_t sample, const Color& weight) {
-    if (spent_[sample] < spec_.ray_budget) {
-      ++spent_[sample];
-      return true;
-    }
-    untraced_[sample] += largest(weight);
-    return false;
-  }
-
-  bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor,
-                         uint32_t media, const char* kind) {
+  // Queues a ray of the next level, if depth, weight and budget allow it.
+  bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor, uint32_t media,
+              const char* kind) {
     const Color weight = path.weight * factor;
     if (!(largest(weight) > 0.0)) return false;
-    if (!is_followed(path, factor)) {
+    if (path.depth >= spec_.max_depth || largest(weight) < spec_.weight_cutoff ||
+        spent_[path.sample] >= spec_.ray_budget) {
       untraced_[path.sample] += largest(weight);
       return false;
     }
-    if (!spend(path.sample, weight)) return false;
+    ++spent_[path.sample];
     next_.push({surface.position, direction, surface.here}, {weight, path.sample, media, path.depth + 1, kind});
     return true;
   }
