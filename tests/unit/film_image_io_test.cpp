@@ -6,11 +6,23 @@
 #include <string>
 #include <thread>
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include "renderer/film/image_io.h"
 #include "renderer/film/tone.h"
 
 namespace tilelight {
 namespace {
+
+// OpenImageIO 2.4 loses one message of 31 bytes when a PNG ends early: libpng's longjmp passes over a std::string of
+// PNGInput::PngReadCallback. Nothing else is excused: only what is allocated while this object lives.
+struct LeaksOfTheLibrary {
+#ifdef __SANITIZE_ADDRESS__
+  __lsan::ScopedDisabler disabler;
+#endif
+};
 
 // A smooth picture with values beyond both ends of the displayed range.
 Image gradient(int width, int height) {
@@ -98,6 +110,7 @@ TEST(ImageIo, RefusesBytesThatAreNotOfTheDeclaredFormat) {
       EXPECT_FALSE(decode_image(png, format, 1 << 20)) << media_type(format);
     }
   }
+  [[maybe_unused]] const LeaksOfTheLibrary ignored;
   EXPECT_FALSE(decode_image(std::string_view(png).substr(0, png.size() / 2), ImageFormat::png, 1 << 20));
 }
 
