@@ -83,7 +83,7 @@ void add_plan(CLI::App& app, Run& run) {
   add_view_options(*command, options->plan.view);
   add_isa_option(*command, options->plan.isa);
   command->add_flag("--json", options->plan.json, "As a JSON object");
-  command->footer("Examples:\n  tilelight plan scene.json\n  tilelight plan scene.json --json | jq .left_out");
+  command->footer("Examples:\n  tilelight plan scene.json\n  tilelight plan scene.json --json | jq .plan.left_out");
   command->callback([options, &run] {
     run = [options] {
       const auto source = read_scene(options->scene);
@@ -155,6 +155,11 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
+      std::fprintf(stderr, "tilelight: no command is called '%s'; there are render, plan, chess and schema\n",
+                   words[0].c_str());
+      return kBadInput;
+    }
     return app.exit(error) == 0 ? kOk : kBadInput;  // prints the help, the version or what is wrong
   }
   return run();

@@ -54,7 +54,7 @@ void print_scene(std::ostream& out, const Plan& plan) {
       << std::defaultfloat;
 }
 
-void print_view(std::ostream& out, const ViewPlan& plan, bool is_framed) {
+void print_view(std::ostream& out, const ViewPlan& plan, bool is_framed, const CostPrediction& cost, int threads) {
   const Camera& camera = plan.camera;
   out << "image     " << plan.view.image.width << " x " << plan.view.image.height << ", " << stop_text(plan.view.render)
       << "\n"
@@ -62,8 +62,8 @@ void print_view(std::ostream& out, const ViewPlan& plan, bool is_framed) {
       << vector_text(camera.target) << "\n"
       << "kernel    " << plan.plan.kernel << " on " << plan.plan.isa << "\n"
       << "features  " << features_text(plan.features) << "\n";
-  if (plan.plan.predicted_mrays > 0.0)
-    out << "rays      at most " << std::setprecision(3) << plan.plan.predicted_mrays << " million\n";
+  out << std::setprecision(2) << "predicted " << cost.mrays << " million rays, " << cost.elapsed_ms / 1000.0 << " s on "
+      << threads << (threads == 1 ? " thread\n" : " threads\n");
 }
 
 void print_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
@@ -89,12 +89,14 @@ ExitCode run_plan(const SceneText& source, const PlanArguments& arguments) {
   TilePool pool;
   const auto compiled = compile_scene(document.scene, pool);
   const ViewPlan plan = plan_view(*compiled, document.view);
+  print_warnings(source.name, plan.plan.warnings);
   std::ostringstream out;
+  const CostPrediction cost = predict_cost(*compiled, plan, pool.thread_count());
   if (arguments.json) {
-    out << plan_json(plan.plan) << "\n";
+    out << R"({"predicted":)" << cost_json(cost) << R"(,"plan":)" << plan_json(plan.plan) << "}\n";
   } else {
     print_scene(out, plan.plan);
-    print_view(out, plan, !document.view.camera);
+    print_view(out, plan, !document.view.camera, cost, pool.thread_count());
     print_left_out(out, plan.plan.left_out);
   }
   std::fputs(out.str().c_str(), stdout);

@@ -73,6 +73,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   TilePool pool(arguments.threads);
   const auto compiled = compile_scene(scene, pool);
   const ViewPlan plan = plan_view(*compiled, view);
+  print_warnings(source.name, plan.plan.warnings);
   if (!arguments.pixel.empty()) return explain(*compiled, plan, arguments);
   if (is_interrupted()) return kInterrupted;
 

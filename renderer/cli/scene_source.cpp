@@ -34,11 +34,11 @@ std::string errors_text(const std::string& name, const std::vector<SceneError>& 
   return text;
 }
 
-std::string warnings_text(const std::string& name, const std::vector<SceneWarning>& warnings) {
-  std::string text;
-  for (const SceneWarning& warning : warnings)
-    text += name + ": warning: " + (warning.pointer.empty() ? "" : warning.pointer + ": ") + warning.detail + "\n";
-  return text;
+void print_warnings(const std::string& name, const std::vector<SceneWarning>& warnings) {
+  for (const SceneWarning& warning : warnings) {
+    const std::string where = warning.pointer.empty() ? "" : warning.pointer + ": ";
+    std::fprintf(stderr, "%s: warning: %s%s\n", name.c_str(), where.c_str(), warning.detail.c_str());
+  }
 }
 
 std::variant<SceneText, ExitCode> read_scene(const std::string& path) {
@@ -57,7 +57,7 @@ std::variant<ParsedScene, ExitCode> parse_with_options(const SceneText& source, 
     std::fputs(errors_text(source.name, parsed.error().errors).c_str(), stderr);
     return kBadInput;
   }
-  std::fputs(warnings_text(source.name, parsed->warnings).c_str(), stderr);
+  print_warnings(source.name, parsed->warnings);
   auto view = parse_view(view_json(options), parsed->view, limits);
   if (!view) {
     for (SceneError& error : view.error().errors) error.line = 0;  // of a text that nobody wrote

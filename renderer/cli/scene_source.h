@@ -24,7 +24,9 @@ struct SceneText {
 
 // "scene.json:12:3: /objects/0/radius: -1 is ... (hint)" for every error, each with its line feed.
 std::string errors_text(const std::string& name, const std::vector<SceneError>& errors);
-std::string warnings_text(const std::string& name, const std::vector<SceneWarning>& warnings);
+
+// "scene.json: warning: /meshes/0: ..." on standard error.
+void print_warnings(const std::string& name, const std::vector<SceneWarning>& warnings);
 
 // Reads "-" from standard input. What went wrong is told on standard error; then the exit code is handed back.
 std::variant<SceneText, ExitCode> read_scene(const std::string& path);

@@ -46,6 +46,7 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
 
   Plan& plan = out->plan;
   plan.left_out.insert(plan.left_out.end(), left_out.begin(), left_out.end());
+  plan.warnings = find_open_glass(bodies, *out);
   plan.lights = static_cast<int64_t>(out->lights.size());
   plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody) +
                                             out->tree.nodes.size() * sizeof(WideBvh::Node));
@@ -65,8 +66,8 @@ Camera framed_camera(const CompiledScene& scene, int width, int height) {
   const double radius = scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0;
   const double distance = kMargin * radius / sin(std::min(half_x, half_y));
   camera.target = scene.bounding_center;
-  camera.position = camera.target + distance * Vec3(sin(azimuth) * cos(elevation), sin(elevation),
-                                                    cos(azimuth) * cos(elevation));
+  camera.position =
+      camera.target + distance * Vec3(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation));
   return camera;
 }
 

@@ -12,7 +12,8 @@ namespace tilelight {
 using LeftOutList = std::vector<LeftOut>;
 
 // Keeps the materials that some body wears and points the bodies at their new places.
-std::vector<CompiledMaterial> drop_unused_materials(const Scene& scene, std::vector<Body>& bodies, LeftOutList& left_out);
+std::vector<CompiledMaterial> drop_unused_materials(const Scene& scene, std::vector<Body>& bodies,
+                                                    LeftOutList& left_out);
 
 // Keeps the lights that can light something: not black, and some material reflects light at all.
 std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vector<CompiledMaterial>& materials,
@@ -25,10 +26,14 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
 // What the kernel has to do for this scene, and the reasons for what it need not do.
 FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out);
 
+// Glass without an inside: open meshes whose material transmits. One warning a body.
+std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const CompiledScene& scene);
+
 // The tree over the finite bodies.
 WideBvh build_scene_tree(const CompiledScene& scene, TilePool& pool);
 
-// An upper bound of the light any ray brings, every channel: B of the truncation bound w * B. Negative if none is finite.
+// An upper bound of the light any ray brings, every channel: B of the truncation bound w * B. Negative if none is
+// finite.
 double find_radiance_bound(const CompiledScene& scene);
 
 // World-space box of a finite body, in the scene's normalised space.

@@ -78,6 +78,17 @@ std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vecto
   return kept;
 }
 
+std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const CompiledScene& scene) {
+  std::vector<SceneWarning> warnings;
+  for (const Body& body : bodies) {
+    if (body.kind != BodyKind::mesh || body.mesh->closed || !scene.materials[body.material].is_transmissive) continue;
+    warnings.push_back({"/objects/" + std::to_string(body.object), "open_glass",
+                        "the mesh is open and its material transparent: without an inside it bends no light, as if it "
+                        "were thin"});
+  }
+  return warnings;
+}
+
 double find_radiance_bound(const CompiledScene& scene) {
   double light_sum = 0.0;  // the brightest channel of what all lights can bring to one point
   for (const CompiledLight& light : scene.lights) {
@@ -106,9 +117,15 @@ FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {
   FeatureSet f;
   for (const CompiledBody& body : scene.bodies) {
     switch (body.kind) {
-      case BodyKind::sphere: f.add(Feature::spheres); break;
-      case BodyKind::box: f.add(Feature::boxes); break;
-      case BodyKind::plane: f.add(Feature::planes); break;
+      case BodyKind::sphere:
+        f.add(Feature::spheres);
+        break;
+      case BodyKind::box:
+        f.add(Feature::boxes);
+        break;
+      case BodyKind::plane:
+        f.add(Feature::planes);
+        break;
       case BodyKind::mesh:
         f.add(Feature::triangles);
         if (!body.mesh->corner_normals.empty()) f.add(Feature::smooth_normals);

@@ -9,13 +9,29 @@
 #include <vector>
 
 #include "renderer/base/vec.h"
+#include "renderer/scene/scene.h"
 
 namespace tilelight {
 
 // What a kernel may have to do. Bits of a FeatureSet; stored in reports by name.
 enum class Feature : uint32_t {
-  spheres, boxes, planes, triangles, smooth_normals, checker, point_lights, directional_lights, specular, shadows,
-  tinted_shadows, reflection, transmission, nested_media, fresnel, attenuation, count_
+  spheres,
+  boxes,
+  planes,
+  triangles,
+  smooth_normals,
+  checker,
+  point_lights,
+  directional_lights,
+  specular,
+  shadows,
+  tinted_shadows,
+  reflection,
+  transmission,
+  nested_media,
+  fresnel,
+  attenuation,
+  count_
 };
 inline constexpr int kFeatureCount = static_cast<int>(Feature::count_);
 std::string_view feature_name(Feature feature);
@@ -44,15 +60,15 @@ struct LeftOut {
 };
 
 struct Plan {
-  FeatureSet features;             // what the kernel does
-  std::string kernel;              // the variant's name, e.g. "mirrors+shadows"
-  std::string isa;                 // instruction set the kernel is dispatched to, e.g. "AVX3"
+  FeatureSet features;  // what the kernel does
+  std::string kernel;   // the variant's name, e.g. "mirrors+shadows"
+  std::string isa;      // instruction set the kernel is dispatched to, e.g. "AVX3"
   std::vector<LeftOut> left_out;
+  std::vector<SceneWarning> warnings;  // what only compiling finds
   int64_t bodies = 0, triangles_stored = 0, triangles_instanced = 0, lights = 0;
-  int64_t memory_bytes = 0;        // of the compiled scene
+  int64_t memory_bytes = 0;               // of the compiled scene
   Vec3 bounds_min{0.0}, bounds_max{0.0};  // of the finite bodies, scene units
   double compile_ms = 0.0, plan_ms = 0.0;
-  double predicted_mrays = 0.0;    // rays the render will trace at most, millions; 0 = not predicted
 };
 
 // The plan as a JSON object.

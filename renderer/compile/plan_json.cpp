@@ -15,19 +15,17 @@ std::string plan_json(const Plan& plan) {
   }
   Json left_out = Json::array();
   for (const LeftOut& item : plan.left_out) left_out.push_back({{"what", item.what}, {"why", item.why}});
-  const Json out = {
-      {"features", features},
-      {"kernel", plan.kernel},
-      {"isa", plan.isa},
-      {"left_out", left_out},
-      {"bodies", plan.bodies},
-      {"lights", plan.lights},
-      {"triangles", {{"stored", plan.triangles_stored}, {"instanced", plan.triangles_instanced}}},
-      {"memory_bytes", plan.memory_bytes},
-      {"bounds", {{"min", vec(plan.bounds_min)}, {"max", vec(plan.bounds_max)}}},
-      {"compile_ms", plan.compile_ms},
-      {"plan_ms", plan.plan_ms},
-      {"predicted_mrays", plan.predicted_mrays}};
+  const Json out = {{"features", features},
+                    {"kernel", plan.kernel},
+                    {"isa", plan.isa},
+                    {"left_out", left_out},
+                    {"bodies", plan.bodies},
+                    {"lights", plan.lights},
+                    {"triangles", {{"stored", plan.triangles_stored}, {"instanced", plan.triangles_instanced}}},
+                    {"memory_bytes", plan.memory_bytes},
+                    {"bounds", {{"min", vec(plan.bounds_min)}, {"max", vec(plan.bounds_max)}}},
+                    {"compile_ms", plan.compile_ms},
+                    {"plan_ms", plan.plan_ms}};
   return out.dump();
 }
 

@@ -15,7 +15,7 @@ std::string describe_length(const Length& length, const std::string& noun) {
   if (length.min > 0) text += "at least " + std::to_string(length.min) + " ";
   if (length.max != kEndless) {
     text += (text.empty() ? "at most " : "and at most ") + std::to_string(length.max) + " ";
-    if (length.is_limit) text += "(a limit of this server) ";
+    if (length.is_limit) text += "(a configured limit) ";
   }
   text += noun;
   if (length.step > 1) text += ", a multiple of " + std::to_string(length.step);
@@ -27,7 +27,7 @@ std::string describe_range(const Range& range) {
   const bool unbounded_below = range.min <= -kMaxMagnitude;
   if (!unbounded_below) text += (range.above_min ? " above " : " from ") + number_text(range.min);
   text += (range.below_max ? " under " : unbounded_below ? " up to +-" : " to ") + number_text(range.max);
-  if (range.is_limit) text += " (a limit of this server)";
+  if (range.is_limit) text += " (a configured limit)";
   if (range.nonzero) text += ", not 0";
   return text;
 }

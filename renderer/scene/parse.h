@@ -23,10 +23,6 @@ struct SceneError {
   int line = 0, column = 0;          // 1-based place in the text; 0 where unknown
 };
 
-struct SceneWarning {
-  std::string pointer, code, detail;
-};
-
 struct SceneErrors {
   enum class Kind { not_json, too_large, invalid };  // HTTP 400, 413, 422
   Kind kind = Kind::invalid;

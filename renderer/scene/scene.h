@@ -177,4 +177,9 @@ struct View {
   bool operator==(const View&) const = default;
 };
 
+// Something odd but meaningful in a document, and what was made of it. `pointer` is a JSON pointer (RFC 6901) into it.
+struct SceneWarning {
+  std::string pointer, code, detail;
+};
+
 }  // namespace tilelight

@@ -16,7 +16,8 @@ std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [.
 std::string report_csv(const RenderReport& report);
 
 std::string scene_document(std::string_view id, const std::vector<SceneWarning>& warnings);
-std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan);
+std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan,
+                          const CostPrediction& cost);
 std::string session_document(std::string_view id, std::string_view scene_id, const std::vector<SceneWarning>& warnings,
                              const ViewPlan& plan);
 std::string limits_document(const Config& config);

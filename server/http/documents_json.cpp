@@ -16,7 +16,10 @@ Json time_or_null(int64_t wall_ms) { return wall_ms > 0 ? Json(rfc3339(wall_ms))
 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-Json warnings_json(const std::vector<SceneWarning>& warnings) {
+// What reading found, then what compiling found.
+Json warnings_json(const std::vector<SceneWarning>& read, const Plan* plan = nullptr) {
+  std::vector<SceneWarning> warnings = read;
+  if (plan) warnings.insert(warnings.end(), plan->warnings.begin(), plan->warnings.end());
   Json out = Json::array();
   for (const SceneWarning& w : warnings)
     out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
@@ -70,7 +73,7 @@ std::string job_json(const JobRecord& record) {
   const WorkStatus& status = record.status;
   Json out = brief_json(record);
   out["timings"] = timings_json(status.timings);
-  out["warnings"] = warnings_json(record.warnings);
+  out["warnings"] = warnings_json(record.warnings, status.plan ? &*status.plan : nullptr);
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
   out["report"] = has_report ? Json::parse(report_json(status.report, *status.plan)) : Json(nullptr);
@@ -108,9 +111,11 @@ std::string scene_document(std::string_view id, const std::vector<SceneWarning>&
   return text_of({{"id", id}, {"warnings", warnings_json(warnings)}});
 }
 
-std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan) {
+std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan,
+                          const CostPrediction& cost) {
   return text_of({{"scene", scene_id},
-                  {"warnings", warnings_json(warnings)},
+                  {"warnings", warnings_json(warnings, &plan.plan)},
+                  {"predicted", Json::parse(cost_json(cost))},
                   {"plan", Json::parse(plan_json(plan.plan))},
                   {"camera", camera_json(plan.camera)}});
 }
@@ -125,7 +130,7 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
                   {"view_seq", 0},
                   {"bounds", {{"min", vector_json(plan.plan.bounds_min)}, {"max", vector_json(plan.plan.bounds_max)}}},
                   {"plan", Json::parse(plan_json(plan.plan))},
-                  {"warnings", warnings_json(warnings)}});
+                  {"warnings", warnings_json(warnings, &plan.plan)}});
 }
 
 std::string limits_document(const Config& config) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <future>
+
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
@@ -18,7 +20,11 @@ Reply plan_response(Services& services, const Request& request, const ScenePtr& 
   const CompiledPtr compiled = services.compiled.wait(scene, Priority::normal, request.gone);
   if (!compiled) return problem(500, "internal", "the scene could not be compiled");
   const ViewPlan plan = plan_view(*compiled, view);
-  return json_response(200, plan_document(scene->parsed.scene_id, warnings, plan)).with("Cache-Control", "no-cache");
+  std::promise<CostPrediction> cost;  // found on the pool, as all tracing is
+  services.pool.post(Priority::normal,
+                     [&] { cost.set_value(predict_cost(*compiled, plan, services.pool.thread_count())); });
+  return json_response(200, plan_document(scene->parsed.scene_id, warnings, plan, cost.get_future().get()))
+      .with("Cache-Control", "no-cache");
 }
 
 }  // namespace

@@ -85,6 +85,8 @@ TEST_F(Scenes, APlanSaysWhatAViewNeedsWithoutRendering) {
   ASSERT_EQ(answer.status, 200) << answer.body;
   const Json document = Json::parse(answer.body);
   EXPECT_EQ(document.at("plan").at("bodies"), 2);
+  EXPECT_GT(document.at("predicted").at("mrays"), 0.0);
+  EXPECT_GT(document.at("predicted").at("elapsed_ms"), 0.0);
   EXPECT_EQ(document.at("camera").at("type"), "perspective");
   EXPECT_EQ(document.at("camera").at("position").size(), 3);
   EXPECT_EQ(document.at("scene").get<std::string>().size(), 64);

@@ -201,6 +201,7 @@ TEST_F(Command, ExplainsOnePixelInsteadOfRendering) {
 TEST_F(Command, TellsThePlanForPeopleAndForPrograms) {
   const Outcome people = run({"plan", "scene.json"});
   EXPECT_EQ(people.code, 0) << people.err;
+  EXPECT_NE(people.out.find("predicted"), std::string::npos) << people.out;
   EXPECT_NE(people.out.find("left out"), std::string::npos) << people.out;
   EXPECT_NE(people.out.find("transmission"), std::string::npos) << people.out;
   const Outcome programs = run({"plan", "scene.json", "--json"});

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "renderer/compile/compile.h"
 #include "renderer/compile/compiled_mesh.h"
 #include "renderer/compile/normalise.h"
 #include "renderer/compile/passes.h"
-#include "renderer/compile/compile.h"
 
 namespace tilelight {
 namespace {
@@ -44,7 +44,8 @@ Scene one_sphere() {
 }
 
 bool says(const std::vector<LeftOut>& list, const std::string& what) {
-  return std::any_of(list.begin(), list.end(), [&](const LeftOut& item) { return item.what == what && !item.why.empty(); });
+  return std::any_of(list.begin(), list.end(),
+                     [&](const LeftOut& item) { return item.what == what && !item.why.empty(); });
 }
 
 const LeftOutList& left_out_of(const CompiledScene& scene) { return scene_plan(scene).left_out; }
@@ -129,6 +130,25 @@ TEST_F(Compile, InstancesOfAMeshShareItsGeometry) {
   const auto compiled = compile_scene(scene, pool_);
   EXPECT_EQ(compiled->meshes.size(), 1u);
   EXPECT_EQ(scene_plan(*compiled).triangles_instanced, 3 * scene_plan(*compiled).triangles_stored);
+}
+
+TEST_F(Compile, WarnsOfGlassWithoutAnInside) {
+  Scene scene = one_sphere();
+  scene.materials[0].transmission = Color(0.9);
+  const auto with_mesh = [&](std::vector<uint32_t> indices) {
+    MeshData tetrahedron;
+    tetrahedron.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    tetrahedron.indices = std::move(indices);
+    scene.meshes = {tetrahedron};
+    scene.objects.resize(1);
+    scene.objects.emplace_back().shape = MeshShape{0};
+    return compile_scene(scene, pool_);
+  };
+  EXPECT_TRUE(scene_plan(*with_mesh({0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3})).warnings.empty());
+  const auto warnings = scene_plan(*with_mesh({0, 2, 1, 0, 1, 3, 0, 3, 2})).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].pointer, "/objects/1");
+  EXPECT_EQ(warnings[0].code, "open_glass");
 }
 
 TEST_F(Compile, TheFramedCameraHoldsTheBoundingSphereInBothDirections) {

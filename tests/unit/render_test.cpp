@@ -8,6 +8,7 @@
 #include <latch>
 
 #include "renderer/render/pass_schedule.h"
+#include "renderer/render/predict.h"
 #include "renderer/render/render.h"
 #include "renderer/scene/parse.h"
 #include "renderer/trace/isa.h"
@@ -157,6 +158,37 @@ TEST(Render, CountsItsRaysAndBoundsWhatItLeftUntraced) {
   for (const float channel : render->image()->rgb) EXPECT_NEAR(channel, value, 1e-6);
   EXPECT_GE(point.truncation_bound, 1.0 - value - 1e-12);  // the whole series sums to 1
   EXPECT_LE(point.truncation_bound, 0.0625 + 1e-12);
+}
+
+TEST(PredictCost, ForetellsTheRaysOfTheRender) {
+  TilePool pool(2);
+  Prepared p = prepare(pool);
+  p.view.image.width = 200, p.view.image.height = 120;
+  p.view.render.samples = 4;
+  const ViewPlan plan = plan_view(*p.scene, p.view);
+  const CostPrediction cost = predict_cost(*p.scene, plan, 2);
+  const auto render = Render::start(pool, Priority::normal, p.scene, plan);
+  ASSERT_TRUE(render->wait_ms(1e12));
+  const double mrays = 1e-6 * static_cast<double>(render->report().points.back().rays.total());
+  EXPECT_NEAR(cost.mrays / mrays, 1.0, 0.1);
+  EXPECT_GT(cost.cpu_ms, 0.0);
+  EXPECT_DOUBLE_EQ(cost.elapsed_ms, cost.cpu_ms / 2);
+
+  p.view.render.time_ms = 1e-3;
+  const CostPrediction cut = predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
+  EXPECT_EQ(cut.elapsed_ms, 1e-3);
+  EXPECT_LT(cut.mrays, cost.mrays);
+}
+
+TEST(PredictCost, HoldsForOnePixelAndForAnImageOfOneRow) {
+  TilePool pool(1);
+  Prepared p = prepare(pool, R"({"objects": [{"type": "sphere"}], "lights": []})");
+  p.view.render.samples = 3;
+  for (const auto& [width, height] : {std::pair{1, 1}, {5000, 1}, {1, 5000}, {3, 2}}) {
+    p.view.image.width = width, p.view.image.height = height;
+    // Nothing to light and nothing to mirror: the primary rays are all there are.
+    EXPECT_NEAR(predict_cost(*p.scene, plan_view(*p.scene, p.view), 1).mrays, 3e-6 * width * height, 1e-12);
+  }
 }
 
 TEST(PassSchedule, DoublesUpToTheSamplesAskedFor) {

@@ -61,7 +61,6 @@ function facts(plan) {
     ['Instruction set', plan.isa],
     ['Compiling', duration(plan.compile_ms)],
     ['Planning', duration(plan.plan_ms)],
-    ['Rays ahead', !plan.predicted_mrays ? null : `about ${plan.predicted_mrays.toPrecision(2)} million`],
   ];
   return el('dl', { class: 'facts' },
     ...rows.filter(([, value]) => value).flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, String(value))]));
