@@ -15,6 +15,7 @@ const kShots = new URL('./shots/', import.meta.url).pathname;
 const kPatienceMs = 180_000;  // a finished picture on a busy machine
 
 export const kSmall = { viewport: { width: 768, height: 480 } };  // what most tests need; a picture of it is quick
+export const kQuickScene = '/#scene=cubes';  // drawn in a fifth of the opening's time; for what does not depend on the scene
 export const kDesktop = { viewport: { width: 1440, height: 900 } };
 export const kPhone = { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
-import { afterMoving, finished, kDesktop, kPhone, kSmall, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
+import { afterMoving, finished, kDesktop, kPhone, kQuickScene, kSmall, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
 
 const run = promisify(execFile);
 const kPngSignature = '89504e470d0a1a0a';
@@ -55,7 +55,7 @@ test('every scene of the picker has a title, a small picture, and can be shown',
 });
 
 test('a scene can be picked by keyboard alone, and Escape gives the focus back', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     await page.focus('#scenes-button');
     await page.keyboard.press('Enter');
     await page.keyboard.press('Tab');
@@ -121,7 +121,7 @@ test('a mistake in the scene is marked on its line, explained, and a click leads
 });
 
 test('a misspelt name comes with the right one', async () => {
-  await onPage({ server, expected: kRefused }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene, expected: kRefused }, async ({ page }) => {
     await openPanel(page, 'edit');
     await page.fill('#editor-text', '{"tilelight": 1, "objects": [{"type": "sphere", "raduis": 2}]}');
     await page.waitForSelector('.error');
@@ -130,7 +130,7 @@ test('a misspelt name comes with the right one', async () => {
 });
 
 test('text that is not JSON is marked where it breaks', async () => {
-  await onPage({ server, expected: kRefused }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene, expected: kRefused }, async ({ page }) => {
     await openPanel(page, 'edit');
     await page.fill('#editor-text', '{\n  "tilelight": 1,\n  "objects": [,]\n}\n');
     await page.waitForSelector('.error');
@@ -140,21 +140,21 @@ test('text that is not JSON is marked where it breaks', async () => {
 });
 
 test('an edit keeps the camera where the hand left it', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const positions = [];
     page.on('request', (request) => request.method() === 'PUT' && positions.push(request.postDataJSON().camera.position));
     await page.focus('#picture');
     await afterMoving(page, () => page.keyboard.press('Shift+ArrowLeft'));
     const moved = positions.at(-1);
     await openPanel(page, 'edit');
-    await caretAfter(page, '"ambient": 0.1');
+    await caretAfter(page, '"ambient": 0.16');
     await afterMoving(page, () => page.keyboard.insertText('9'));
     assert.deepEqual(positions.at(-1), moved);
   });
 });
 
 test('the plan says what is in use and what was left out and why', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     await openPanel(page, 'plan');
     assert.ok(await page.locator('.chips li').count() > 0);
     assert.ok(await page.locator('.left-out dt').count() > 0);
@@ -165,11 +165,11 @@ test('the plan says what is in use and what was left out and why', async () => {
 });
 
 test('the download is the very picture on the screen', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     await page.focus('#picture');
     await afterMoving(page, () => page.keyboard.press('Shift+ArrowRight'));
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download-button')]);
-    assert.equal(download.suggestedFilename(), 'tilelight-opening-768x480.png');
+    assert.equal(download.suggestedFilename(), 'tilelight-cubes-768x480.png');
     const bytes = await readFile(await download.path());
     assert.deepEqual(pngSize(bytes), kSmall.viewport);
     assert.equal(await lookOfPng(page, bytes), await look(page));
@@ -178,7 +178,7 @@ test('the download is the very picture on the screen', async () => {
 
 test('the copied curl command runs and gives the picture on the screen', async () => {
   const settings = { ...kSmall, permissions: ['clipboard-read', 'clipboard-write'] };
-  await onPage({ server, settings }, async ({ page }) => {
+  await onPage({ server, settings, path: kQuickScene }, async ({ page }) => {
     await page.click('#curl-button');
     await page.waitForSelector('.toast.is-shown:has-text("copied")');
     const command = await page.evaluate(() => navigator.clipboard.readText());
@@ -236,7 +236,7 @@ for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { widt
 }
 
 test('every control has a name and shows the focus', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas')]
       .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
       .map((e) => e.outerHTML));

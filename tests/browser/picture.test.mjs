@@ -3,14 +3,14 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
-import { afterMoving, finished, kDesktop, kPhone, kSmall, look, onPage, shoot, startServer } from './harness.mjs';
+import { afterMoving, finished, kDesktop, kPhone, kQuickScene, kSmall, look, onPage, shoot, startServer } from './harness.mjs';
 
 let server;
 before(async () => { server = await startServer(); });
 after(() => server.stop());
 
 const kMiddle = { x: 380, y: 250 };
-const kHome = JSON.parse(await readFile(new URL('../../web/scenes/opening.json', import.meta.url), 'utf8')).camera;
+const kHome = JSON.parse(await readFile(new URL('../../web/scenes/cubes.json', import.meta.url), 'utf8')).camera;
 const distanceOf = ({ position, target }) => Math.hypot(...position.map((x, i) => x - target[i]));
 
 async function drag(page, dx, dy, { button = 'left', steps = 12 } = {}) {
@@ -46,7 +46,7 @@ for (const colorScheme of ['dark', 'light']) {
 }
 
 test('a drag with the left button orbits and keeps the target', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const views = sentViews(page);
     await afterMoving(page, () => drag(page, 160, 30));
     const { position, target } = views.at(-1).camera;
@@ -57,7 +57,7 @@ test('a drag with the left button orbits and keeps the target', async () => {
 });
 
 test('a drag with the right button pans', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const views = sentViews(page);
     await afterMoving(page, () => drag(page, -120, 0, { button: 'right' }));
     const { position, target } = views.at(-1).camera;
@@ -68,7 +68,7 @@ test('a drag with the right button pans', async () => {
 });
 
 test('the wheel zooms to the cursor', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const views = sentViews(page);
     await page.mouse.move(600, 160);
     await afterMoving(page, () => page.mouse.wheel(0, -400));
@@ -79,7 +79,7 @@ test('the wheel zooms to the cursor', async () => {
 });
 
 test('arrow keys move the picture that has the focus, and R goes back', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const first = await look(page);
     await page.focus('#picture');
     await afterMoving(page, () => page.keyboard.press('ArrowLeft'));
@@ -92,7 +92,7 @@ test('arrow keys move the picture that has the focus, and R goes back', async ()
 });
 
 test('while moving the picture is smaller, and at rest it is whole', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const views = sentViews(page);
     await afterMoving(page, () => drag(page, 200, 0, { steps: 40 }));
     const moving = views.filter((view) => view.moving);
@@ -104,7 +104,7 @@ test('while moving the picture is smaller, and at rest it is whole', async () =>
 });
 
 test('frames never go back to an older view, and the newest view is the one that stays', async () => {
-  await onPage({ server }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
     const views = sentViews(page);
     const frames = [];
     page.on('response', (response) => {
@@ -122,7 +122,7 @@ test('frames never go back to an older view, and the newest view is the one that
 });
 
 test('a session that the server has forgotten is opened anew', async () => {
-  await onPage({ server, expected: [/404/, /410/] }, async ({ page }) => {
+  await onPage({ server, path: kQuickScene, expected: [/404/, /410/] }, async ({ page }) => {
     const [put] = await Promise.all([
       page.waitForRequest((request) => request.method() === 'PUT'),
       drag(page, 40, 0),
@@ -137,7 +137,7 @@ test('a session that the server has forgotten is opened anew', async () => {
 });
 
 test('without the server the last picture stays, and the page goes on when it is back', async () => {
-  await onPage({ server, expected: [/ERR_INTERNET_DISCONNECTED/] }, async ({ page, context }) => {
+  await onPage({ server, path: kQuickScene, expected: [/ERR_INTERNET_DISCONNECTED/] }, async ({ page, context }) => {
     const first = await look(page);
     const glanced = await page.evaluate(() => window.glance());
     await context.setOffline(true);
@@ -152,7 +152,7 @@ test('without the server the last picture stays, and the page goes on when it is
 });
 
 test('one finger orbits and two fingers zoom', async () => {
-  await onPage({ server, settings: { ...kPhone, deviceScaleFactor: 1 } }, async ({ page, context }) => {
+  await onPage({ server, settings: { ...kPhone, deviceScaleFactor: 1 }, path: kQuickScene }, async ({ page, context }) => {
     const views = sentViews(page);
     const touch = await context.newCDPSession(page);
     const send = (type, ...points) => touch.send('Input.dispatchTouchEvent', {
