@@ -3,6 +3,8 @@
 
 #include <condition_variable>
 
+#include "server/process.h"
+
 namespace tilelight::server {
 namespace {
 
@@ -80,6 +82,8 @@ void App::add_gauges() {
   metrics_.gauge("tilelight_http_connections", "Open connections.",
                  [this] { return static_cast<double>(http_->connection_count()); });
   metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
+  metrics_.gauge("process_cpu_seconds_total", "Processor time of the whole process, user and system.", cpu_seconds);
+  metrics_.gauge("process_resident_memory_bytes", "Memory of the process that lies in RAM.", resident_bytes);
 }
 
 void App::start() {

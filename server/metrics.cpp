@@ -88,7 +88,7 @@ std::string Metrics::prometheus_text() const {
     out += name + "_count " + std::to_string(sum) + "\n";
   }
   for (const Gauge& gauge : gauges) {
-    header(out, gauge.name, gauge.help, "gauge");
+    header(out, gauge.name, gauge.help, gauge.name.ends_with("_total") ? "counter" : "gauge");
     out += gauge.name + " " + number_text(gauge.read()) + "\n";
   }
   return out;

@@ -21,7 +21,8 @@ class Metrics {
 
   void observe_request_ms(double ms);
 
-  // A number read when the metrics are: of a queue, a cache, a pool. The function must stay callable while this lives.
+  // A number read when the metrics are: of a queue, a cache, the process. The function must stay callable while this
+  // lives. A name that ends in _total is typed as a counter.
   void gauge(std::string_view name, std::string_view help, std::function<double()> read);
 
   std::string prometheus_text() const;

@@ -92,6 +92,11 @@ export async function afterMoving(page, move) {
   await finished(page);
 }
 
+export async function openPanel(page, name) {
+  await page.click(`#${name}-button`);
+  await page.waitForSelector(`#${name}-panel`);
+}
+
 // A fingerprint of what the canvas shows: equal strings mean equal pixels.
 export function look(page) {
   return page.evaluate(() => window.lookAt(document.getElementById('picture')));

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
-import { afterMoving, finished, kDesktop, kPhone, kQuickScene, kSmall, look, lookOfPng, onPage, shoot, startServer } from './harness.mjs';
+import { afterMoving, finished, kDesktop, kPhone, kQuickScene, kSmall, look, lookOfPng, onPage, openPanel, shoot, startServer } from './harness.mjs';
 
 const run = promisify(execFile);
 const kPngSignature = '89504e470d0a1a0a';
@@ -20,11 +20,6 @@ after(() => server.stop());
 function pngSize(bytes) {
   assert.equal(bytes.subarray(0, 8).toString('hex'), kPngSignature);
   return { width: bytes.readUInt32BE(16), height: bytes.readUInt32BE(20) };
-}
-
-async function openPanel(page, name) {
-  await page.click(`#${name}-button`);
-  await page.waitForSelector(`#${name}-panel`);
 }
 
 // Puts the caret behind `text` in the editor, as a click would, so that what follows is typed there.
@@ -234,20 +229,3 @@ for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { widt
     });
   });
 }
-
-test('every control has a name and shows the focus', async () => {
-  await onPage({ server, path: kQuickScene }, async ({ page }) => {
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas')]
-      .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
-      .map((e) => e.outerHTML));
-    assert.deepEqual(nameless, []);
-    const seen = [];
-    for (let i = 0; i < 8; ++i) {
-      await page.keyboard.press('Tab');
-      seen.push(await page.evaluate(() => [document.activeElement.id, getComputedStyle(document.activeElement).outlineStyle]));
-    }
-    assert.deepEqual(seen.map(([id]) => id), ['picture', 'scenes-button', 'edit-button', 'plan-button', 'reset-button',
-      'link-button', 'curl-button', 'download-button']);
-    assert.ok(seen.every(([, outline]) => outline === 'solid'));
-  });
-});

@@ -24,6 +24,7 @@ export class Status {
     if (moving) {
       this.#since = performance.now();
       this.#set(0, 'Preview', pixels);
+      byId('spoken').textContent = '';  // so that the same words are said again
       return;
     }
     const share = frame.isFinal ? 1 : this.#total ? frame.spp / this.#total : 0.5;
@@ -31,6 +32,7 @@ export class Status {
     const main = frame.isFinal ? samples : this.#total ? `${frame.spp} of ${this.#total} samples` : samples;
     const seconds = (performance.now() - this.#since) / 1000;
     this.#set(share, main, frame.isFinal ? `${pixels} · ${formatSeconds(seconds)}` : pixels);
+    if (frame.isFinal) byId('spoken').textContent = `The picture is done: ${main}.`;
   }
 
   // `name` as of ViewSession's states.
