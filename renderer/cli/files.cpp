@@ -62,7 +62,9 @@ Result<std::string> read_input(const std::string& path, int64_t max_bytes) {
 
 Result<void> check_can_write(const std::string& path) {
   if (path == "-") return {};
-  if (fs::is_directory(path)) return fail("io", "cannot write " + path + ": it is a folder; name a file in it");
+  std::error_code ignored;  // what is wrong with the path shows when it is opened
+  if (fs::is_directory(path, ignored))
+    return fail("io", "cannot write " + path + ": it is a folder; name a file in it");
   const std::string target = is_replaced(path) ? folder_of(path).string() : path;
   if (::access(target.c_str(), W_OK) != 0) return io_error("write in", target);
   return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <sstream>
@@ -25,6 +26,15 @@ std::string bytes_text(int64_t bytes) {
   } else {
     out << static_cast<double>(bytes) / (1024.0 * 1024.0) << " MiB";
   }
+  return out.str();
+}
+
+// Two digits and no exponent: more would claim to know.
+std::string rounded(double value) {
+  double unit = 1e-6;
+  while (value >= 99.5 * unit) unit *= 10.0;
+  std::ostringstream out;
+  out << std::setprecision(9) << std::defaultfloat << std::round(value / unit) * unit;
   return out.str();
 }
 
@@ -62,7 +72,7 @@ void print_view(std::ostream& out, const ViewPlan& plan, bool is_framed, const C
       << vector_text(camera.target) << "\n"
       << "kernel    " << plan.plan.kernel << " on " << plan.plan.isa << "\n"
       << "features  " << features_text(plan.features) << "\n";
-  out << std::setprecision(2) << "predicted " << cost.mrays << " million rays, " << cost.elapsed_ms / 1000.0 << " s on "
+  out << "predicted " << rounded(cost.mrays) << " million rays, " << rounded(cost.elapsed_ms / 1000.0) << " s on "
       << threads << (threads == 1 ? " thread\n" : " threads\n");
 }
 

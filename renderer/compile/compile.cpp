@@ -40,6 +40,9 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   out->lights = drop_dead_lights(scene, out->materials, left_out);
   rebase_and_normalise(bodies, pool, *out);
   rebase_lights(*out);
+  out->media = static_cast<size_t>(std::count_if(out->bodies.begin(), out->bodies.end(), [&](const CompiledBody& b) {
+    return b.closed && out->materials[b.material].is_transmissive;
+  }));
   out->radiance_bound = find_radiance_bound(*out);
   out->plan.features = find_features(*out, left_out);
   out->tree = build_scene_tree(*out, pool);
@@ -91,7 +94,8 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
   }
   if (view.render.max_depth == 0) {
     leave_out(Feature::reflection, "max_depth is 0: local light only");
-    leave_out(Feature::transmission, "max_depth is 0: local light only");
+    // Of two media that overlap, one hides surfaces of the other, at any depth.
+    if (scene.media <= 1) leave_out(Feature::transmission, "max_depth is 0: local light only");
     leave_out(Feature::nested_media, "max_depth is 0: local light only");
     leave_out(Feature::fresnel, "max_depth is 0: local light only");
   }

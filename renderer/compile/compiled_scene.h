@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CompiledScene: what runs. World space here is *normalised*: the scene's centre at the origin and a power of two as
-// scale, so that its finite bodies fit in [-1, 1]. Every mesh has a normalised local space of its own. Rays and hits live
-// in double; boxes and the first test of triangles are float and only ever discard what certainly misses. Immutable
-// after compile_scene; any thread may read.
+// scale, so that its finite bodies fit in [-1, 1]. Every mesh has a normalised local space of its own. Rays and hits
+// live in double; boxes and the first test of triangles are float and only ever discard what certainly misses.
+// Immutable after compile_scene; any thread may read.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@
 
 namespace tilelight {
 
-// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places are NaN,
-// which no comparison lets through.
+// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places are
+// NaN, which no comparison lets through.
 struct alignas(64) TriangleBlock {
   float vertex[3][3][8];
   uint32_t id[8];
@@ -28,7 +28,7 @@ struct CompiledMesh {
   // The exact triangles, local normalised space.
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<Vec3> normals;  // shared corner normals, unit
+  std::vector<Vec3> normals;                            // shared corner normals, unit
   std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
   bool closed = false;
   Mat4 mesh_from_local{1.0};  // undoes the normalisation
@@ -67,18 +67,19 @@ struct CompiledMaterial {
 };
 
 struct CompiledScene {
-  std::vector<CompiledBody> bodies;      // finite ones first; `tree` is over them
-  size_t finite_bodies = 0;              // bodies[finite_bodies..] are planes
-  WideBvh tree;                          // over bodies[0..finite_bodies), one a leaf
+  std::vector<CompiledBody> bodies;  // finite ones first; `tree` is over them
+  size_t finite_bodies = 0;          // bodies[finite_bodies..] are planes
+  WideBvh tree;                      // over bodies[0..finite_bodies), one a leaf
   std::vector<std::shared_ptr<const CompiledMesh>> meshes;
   std::vector<CompiledMaterial> materials;
+  size_t media = 0;  // bodies that are solid and transparent
   std::vector<CompiledLight> lights;
   Background background;
   Color ambient{0.0};
   Attenuation attenuation;
-  Vec3 center{0.0};          // of the scene, user's units
-  double units = 1.0;        // user's units a normalised unit; a power of two
-  Vec3 bounding_center{0.0};     // of a sphere about the finite bodies, user's units
+  Vec3 center{0.0};           // of the scene, user's units
+  double units = 1.0;         // user's units a normalised unit; a power of two
+  Vec3 bounding_center{0.0};  // of a sphere about the finite bodies, user's units
   double bounding_radius = 1.0;
   double radiance_bound = -1.0;  // no ray brings more than this in any channel; negative: no finite bound is known
   Plan plan;

@@ -15,8 +15,6 @@ Vec3 safe_normalize(const Vec3& v) {
   return glm::normalize(v / largest);
 }
 
-constexpr double kParallel = 1e-14;  // sine of the angle; below it rounding alone decides the cross product
-
 Vec3 least_aligned_axis(const Vec3& forward) {
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
@@ -31,7 +29,7 @@ Vec3 least_aligned_axis(const Vec3& forward) {
 
 bool is_up_along_view(const Camera& camera) {
   const Vec3 forward = safe_normalize(camera.target - camera.position);
-  return !(glm::length(glm::cross(forward, safe_normalize(camera.up))) > kParallel);
+  return !(glm::length(glm::cross(forward, safe_normalize(camera.up))) > kUpAlongViewSine);
 }
 
 Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, double units) {
@@ -44,8 +42,8 @@ Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, do
   const Vec3 up = glm::cross(right, eye.forward);
 
   const bool is_perspective = camera.projection == Projection::perspective;
-  const double half_height = is_perspective ? elementary::tan(elementary::rad_from_deg(0.5 * camera.fov_y_deg))
-                                            : 0.5 * camera.height / units;
+  const double half_height =
+      is_perspective ? elementary::tan(elementary::rad_from_deg(0.5 * camera.fov_y_deg)) : 0.5 * camera.height / units;
   const double px = 2.0 * half_height / height;  // edge of a pixel on the image plane
   eye.step_x = right * px;
   eye.step_y = up * -px;

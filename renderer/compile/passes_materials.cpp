@@ -105,7 +105,12 @@ double find_radiance_bound(const CompiledScene& scene) {
     const double lit = max_channel(max_color(m.source.diffuse) + m.source.specular);
     local = std::max(local, ambient + light_sum * lit);
     const Color &kr = m.source.reflection, &kt = m.source.transmission;
-    const bool is_shared = m.source.fresnel && m.is_transmissive;  // kr F + kt (1 - F)
+    // kr F + kt (1 - F) where the body is a medium; a thin one has no F.
+    const auto is_thin = [&](const CompiledBody& body) {
+      return &scene.materials[body.material] == &m && !body.closed;
+    };
+    const bool is_shared =
+        m.source.fresnel && m.is_transmissive && std::none_of(scene.bodies.begin(), scene.bodies.end(), is_thin);
     passed_on = std::max(passed_on, max_channel(is_shared ? glm::max(kr, kt) : kr + kt));
   }
   if (passed_on >= 1.0) return -1.0;

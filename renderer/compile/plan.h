@@ -55,7 +55,7 @@ std::string_view variant_name(KernelVariant variant);
 
 // One thing that costs nothing because this scene or this view cannot show it.
 struct LeftOut {
-  std::string what;  // "light objects/2", "feature reflection", "material ivory", ...
+  std::string what;  // "light lights/2", "feature reflection", "material ivory", ...
   std::string why;   // a sentence
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/facet.h"
 #include "renderer/geometry/tri_mesh.h"
 
 namespace tilelight {
@@ -17,13 +18,6 @@ struct Weld {
 
 // Positions of equal value (bit for bit, -0 as 0) become one.
 Weld weld_positions(std::span<const Vec3> source);
-
-// The unit normal of a triangle by the right-hand rule, or zero if its height is lost in the rounding of its
-// coordinates.
-Vec3 geometric_normal(const Vec3& a, const Vec3& b, const Vec3& c);
-
-// v / |v| for lengths from the smallest subnormal to the largest double; zero for a zero or non-finite vector.
-Vec3 unit_or_zero(const Vec3& v);
 
 // Fills mesh.corner_normals: the mean of the facets around a vertex, weighed by their angles there (Thuermer and
 // Wuethrich 1998), over the facets that are joined by edges no sharper than crease_deg. REQUIRES: no degenerate

@@ -47,8 +47,7 @@ Vec3 unit(const Vec3& v) {  // also of vectors whose squares would underflow
 
 // Up parallel to the view says nothing: then the world axis least aligned with the view (x before y before z) is up.
 Vec3 usable_up(const Vec3& up, const Vec3& forward) {
-  constexpr double kParallel = 1e-10;  // sine of the angle
-  if (glm::length(glm::cross(forward, unit(up))) > kParallel) return unit(up);
+  if (glm::length(glm::cross(forward, unit(up))) > kUpAlongViewSine) return unit(up);
   const Vec3 a = glm::abs(forward);
   return a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0) : a.y <= a.z ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
 }
@@ -87,6 +86,7 @@ class Sample {
       pixel_.color += path.weight * background_at(scene_.background(), path.ray.direction);
       return;
     }
+    if (path.kind == ReferenceRayKind::primary) pixel_.primary_id = surface_id(hit->body, hit->primitive);
     const ReferenceBody& body = scene_.body(hit->body);
     const ShadingPoint at = shading_point(body, *hit, path.ray.direction);
     pixel_.color += path.weight * local_light(scene_, at, render_.shadows);
@@ -102,8 +102,6 @@ class Sample {
   // The first surface that is there: where another medium fills the inner side, the surface is passed through, unbent.
   std::optional<Hit> first_visible(PathRay& path) {
     while (const auto hit = scene_.nearest(path.ray)) {
-      if (path.kind == ReferenceRayKind::primary && pixel_.primary_id == kNothingHit)
-        pixel_.primary_id = surface_id(hit->body, hit->primitive);
       if (!scene_.is_medium(hit->body)) return hit;
       const ShadingPoint at = shading_point(scene_.body(hit->body), *hit, path.ray.direction);
       const MediaStack inside = media_inside(path, at);
@@ -127,8 +125,7 @@ class Sample {
       ior_from = here.ior(scene_), ior_to = beyond.ior(scene_);
     }
     const Refraction through = refracted(path.ray.direction, at.geometric, at.shading, ior_from, ior_to);
-    const bool is_bending = scene_.is_medium(at.hit.body) && ior_from != ior_to;
-    if (material.fresnel && is_bending) {
+    if (material.fresnel && scene_.is_medium(at.hit.body)) {
       kr *= through.fresnel, kt *= 1.0 - through.fresnel;
     } else if (!through.direction) {
       kr += kt, kt = Color(0.0);

@@ -21,7 +21,7 @@ constexpr uint64_t surface_id(uint32_t body, uint32_t primitive) { return uint64
 // What one sample saw.
 struct ReferencePixel {
   Color color{0.0};                   // linear RGB
-  uint64_t primary_id = kNothingHit;  // the first surface on the ray from the eye
+  uint64_t primary_id = kNothingHit;  // the first surface that is shown on the ray from the eye
   // The smallest edge of a checker cell among all that the sample saw, directly, in mirrors and through glass, in
   // pixels; 0 where it cannot be told. Under about 1/4 two renderers cannot be expected to agree on the cell.
   double checker_cell_px = std::numeric_limits<double>::infinity();

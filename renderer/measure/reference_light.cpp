@@ -46,8 +46,9 @@ bool is_odd(double whole) { return whole - 2.0 * std::floor(0.5 * whole) == 1.0;
 ShadingPoint shading_point(const ReferenceBody& body, const Hit& hit, const Vec3& direction) {
   const SurfacePoint surface = surface_at(body, hit);
   const bool is_inside = glm::dot(surface.geometric, direction) > 0.0;
-  const double turn = is_inside ? -1.0 : 1.0;
-  return {hit, surface.point, -direction, turn * surface.geometric, turn * surface.shading, is_inside};
+  const Vec3 geometric = is_inside ? -surface.geometric : surface.geometric;
+  const bool agrees = glm::dot(surface.shading, geometric) >= 0.0;
+  return {hit, surface.point, -direction, geometric, agrees ? surface.shading : -surface.shading, is_inside};
 }
 
 double phong_lobe(const Vec3& r, const Vec3& v, double n) {

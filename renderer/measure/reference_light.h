@@ -13,7 +13,7 @@ struct ShadingPoint {
   Vec3 point;      // world
   Vec3 to_viewer;  // unit
   Vec3 geometric;  // unit; geometric . to_viewer >= 0
-  Vec3 shading;    // unit; turned together with `geometric`
+  Vec3 shading;    // unit; on the side of `geometric`
   bool is_inside;  // the viewer is on the inner side
 };
 ShadingPoint shading_point(const ReferenceBody& body, const Hit& hit, const Vec3& direction);

@@ -20,13 +20,16 @@ class Explainer : public RayListener {
   explicit Explainer(const CompiledScene& scene) : scene_(scene) {}
 
   void on_ray(const Event& event) override {
+    color += event.weight * event.local;
+    weight_ = event.weight;
+    is_truncated = rays.size() >= kMostRays;
+    if (is_truncated) return;
     rays.push_back({{"depth", event.depth},
                     {"kind", event.kind},
                     {"weight", json_of(event.weight)},
                     {"origin", json_of(user_point(event.ray.origin))},
                     {"direction", json_of(event.ray.direction)}});
     Json& ray = rays.back();
-    color += event.weight * event.local;
     if (event.surface == nullptr) {
       ray["hit"] = nullptr;
       ray["background"] = json_of(event.local);
@@ -44,11 +47,11 @@ class Explainer : public RayListener {
                   {"material", s.material->source.name}};
     ray["ambient"] = json_of(event.local);
     ray["lights"] = Json::array();
-    weight_ = event.weight;
   }
 
   void on_light(const CompiledLight& light, const LightSample& sample, const Color& visible) override {
     color += weight_ * visible * (sample.diffuse + sample.specular);
+    if (is_truncated) return;
     Json& lights = rays.back()["lights"];
     lights.push_back({{"light", "lights/" + std::to_string(light.light)}, {"faces_light", sample.is_lit}});
     if (!sample.is_lit) return;
@@ -60,8 +63,10 @@ class Explainer : public RayListener {
     out["visible"] = json_of(visible);
   }
 
-  Json rays = Json::array();
-  Color color{0.0};
+  static constexpr size_t kMostRays = 1000;
+  Json rays = Json::array();  // the first kMostRays
+  bool is_truncated = false;
+  Color color{0.0};  // of all rays
 
  private:
   Vec3 user_point(const Vec3& p) const { return p * scene_.units + scene_.center; }
@@ -74,7 +79,8 @@ class Explainer : public RayListener {
 
 Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPlan& plan, int x, int y, int sample) {
   const ImageSpec& image = plan.view.image;
-  if (x < 0 || y < 0 || x >= image.width || y >= image.height || sample < 0) {
+  if (sample < 0) return fail("out_of_range", "found sample " + std::to_string(sample) + "; allowed: 0 and more");
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) {
     return fail("out_of_range", "pixel " + std::to_string(x) + "," + std::to_string(y) + " lies outside the image of " +
                                     std::to_string(image.width) + "x" + std::to_string(image.height) +
                                     "; allowed: 0.." + std::to_string(image.width - 1) + ", 0.." +
@@ -102,6 +108,7 @@ Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPla
                     {"color_linear", json_of(explainer.color)},
                     {"color_srgb8", srgb},
                     {"untraced_weight", counts.untraced_weight},
+                    {"rays_truncated", explainer.is_truncated},
                     {"rays", explainer.rays}};
   return out.dump();
 }

@@ -18,8 +18,8 @@ class PassSchedule {
     int samples = 0;   // 0: the render is over
     std::string stop;  // then: "samples", "time" or "passes"
   };
-  // done: samples a pixel in whole passes so far. elapsed_ms, ms_per_sample: of this render, for the time rule, which cuts
-  // a pass to what fits; the first pass always runs.
+  // done: samples a pixel in whole passes so far. elapsed_ms, ms_per_sample: of this render, for the time rule, which
+  // cuts a pass to what fits (a replay's passes stay whole); the first pass always runs.
   Next next(int passes_done, int done, double elapsed_ms, double ms_per_sample) const;
 
   int samples() const { return samples_; }  // a pixel at most

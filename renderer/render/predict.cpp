@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "renderer/render/pass_schedule.h"
 #include "renderer/trace/tile_job.h"
 
 namespace tilelight {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media, const TileRect& rect) {
   TileCounts counts;
@@ -37,16 +44,37 @@ ViewPlan in_cells(const ViewPlan& plan) {
   return out;
 }
 
-double rays_per_sample(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
+// A stride that visits all of `count` places and soon has been everywhere: near the golden ratio, coprime to count.
+int golden_stride(int count) {
+  int stride = std::max(1, static_cast<int>(std::lround(0.618 * count)));
+  while (std::gcd(stride, count) != 1) ++stride;
+  return stride;
+}
+
+struct Price {
+  double rays_per_sample = 0.0, ms_per_ray = 0.0;
+};
+
+// One sample a cell, all over the image, until all are traced or the time is over.
+Price ask_cells(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
+  constexpr double kEnoughMs = 100.0;
+  constexpr int kAtLeast = 8;
   const ViewPlan cells = in_cells(plan);
-  const ImageSpec& image = cells.view.image;
-  const TileRect whole{0, 0, image.width, image.height};
-  return static_cast<double>(trace(scene, cells, eye_media, whole)) / (static_cast<double>(image.width) * image.height);
+  const int width = cells.view.image.width, count = width * cells.view.image.height, stride = golden_stride(count);
+  const auto start = Clock::now();
+  int64_t rays = 0, place = 0;
+  int asked = 0;
+  for (; asked < count && (asked < kAtLeast || ms_since(start) < kEnoughMs);
+       ++asked, place = (place + stride) % count) {
+    const int x = static_cast<int>(place % width), y = static_cast<int>(place / width);
+    rays += trace(scene, cells, eye_media, {x, y, x + 1, y + 1});
+  }
+  return {static_cast<double>(rays) / asked, ms_since(start) / static_cast<double>(rays)};
 }
 
 // Rays of neighbouring pixels go the same ways, so the price of a ray is asked of whole blocks of pixels, spread over
 // the image, and with warm caches: a render comes back to a tile sample after sample.
-double ms_per_ray(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
+double ask_blocks(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
   constexpr int kColumns = 4, kRows = 3, kBlockPx = 16;
   const ImageSpec& image = plan.view.image;
   double ms = 0.0;
@@ -56,9 +84,9 @@ double ms_per_ray(const CompiledScene& scene, const ViewPlan& plan, const MediaS
     const int y = image.height * (2 * (i / kColumns) + 1) / (2 * kRows);
     const TileRect block{x, y, std::min(x + kBlockPx, image.width), std::min(y + kBlockPx, image.height)};
     trace(scene, plan, eye_media, block);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     rays += trace(scene, plan, eye_media, block);
-    ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    ms += ms_since(start);
   }
   return ms / static_cast<double>(rays);
 }
@@ -66,19 +94,22 @@ double ms_per_ray(const CompiledScene& scene, const ViewPlan& plan, const MediaS
 }  // namespace
 
 CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
+  constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
   const MediaSet eye_media = media_at_eye(scene, plan);
-  const ImageSpec& image = plan.view.image;
-  const double samples = static_cast<double>(image.width) * image.height * PassSchedule(plan.view.render).samples();
-  const double rays = samples * rays_per_sample(scene, plan, eye_media);
-  CostPrediction cost;
-  cost.mrays = 1e-6 * rays;
-  cost.cpu_ms = rays * ms_per_ray(scene, plan, eye_media);
-  cost.elapsed_ms = cost.cpu_ms / std::max(1, threads);
-  if (const auto& time_ms = plan.view.render.time_ms; time_ms && *time_ms < cost.elapsed_ms) {
-    const double done = *time_ms / cost.elapsed_ms;
-    cost = {cost.mrays * done, cost.cpu_ms * done, *time_ms};
-  }
-  return cost;
+  Price price = ask_cells(scene, plan, eye_media);
+  if (price.rays_per_sample < kManyRays) price.ms_per_ray = ask_blocks(scene, plan, eye_media);
+
+  const double rays_a_pass_sample =
+      price.rays_per_sample * plan.view.image.width * static_cast<double>(plan.view.image.height);
+  const double samples = PassSchedule(plan.view.render).samples();
+  const auto cost_of = [&](double samples_a_pixel) {
+    const double rays = rays_a_pass_sample * samples_a_pixel, cpu_ms = rays * price.ms_per_ray;
+    return CostPrediction{1e-6 * rays, cpu_ms, cpu_ms / std::max(1, threads)};
+  };
+  const CostPrediction whole = cost_of(samples), first = cost_of(1.0);
+  const auto& time_ms = plan.view.render.time_ms;
+  if (!time_ms || whole.elapsed_ms <= *time_ms) return whole;
+  return cost_of(std::max(1.0, *time_ms / first.elapsed_ms));  // the first pass is always finished
 }
 
 }  // namespace tilelight

@@ -21,11 +21,11 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-constexpr int kTilePx = 32;           // 12 KiB of float RGB stays in L1; an item of one sample takes one to five ms
+constexpr int kTilePx = 32;            // 12 KiB of float RGB stays in L1; an item of one sample takes one to five ms
 constexpr double kItemTargetMs = 5.0;  // longest wait of a more urgent render for a thread
 
-// The state machine behind Render. The pool calls take() and run(); the last item of a step opens the next step. A pass is
-// one or more steps: a step gives every tile as many samples as fit kItemTargetMs, so that items stay short.
+// The state machine behind Render. The pool calls take() and run(); the last item of a step opens the next step. A pass
+// is one or more steps: a step gives every tile as many samples as fit kItemTargetMs, so that items stay short.
 class TileRender final : public Render, public WorkSource {
  public:
   TileRender(TilePool& pool, std::shared_ptr<const CompiledScene> scene, ViewPlan plan, RenderOptions options)
@@ -76,7 +76,9 @@ class TileRender final : public Render, public WorkSource {
         ended = true;
       }
     }
-    if (ended) announce();
+    if (!ended) return;
+    announce();
+    pool_.wake(this);
   }
 
   RenderProgress progress() const override {
@@ -159,7 +161,7 @@ class TileRender final : public Render, public WorkSource {
       then = leave_item();
     }
     if (then == Then::announce_pass || then == Then::announce_end) announce();
-    if (then == Then::wake || then == Then::announce_pass) pool_.wake(this);
+    if (then != Then::nothing) pool_.wake(this);  // at the end too: the pool lets go of what says `finished`
   }
 
   // REQUIRES: mutex_.
@@ -189,7 +191,7 @@ class TileRender final : public Render, public WorkSource {
   // REQUIRES: mutex_. A pass that runs past the time limit will not count: stop it now, unless it is the first.
   void drop_overrun_pass() {
     const auto& time_ms = plan_.view.render.time_ms;
-    if (!time_ms || !plan_.view.render.passes.empty() || done_samples_ == 0 || state_ != RenderState::running) return;
+    if (!time_ms || done_samples_ == 0 || state_ != RenderState::running) return;
     if (ms_between(start_, Clock::now()) <= *time_ms || tiles_done_ == tiles_) return;
     over_time_ = true;
     cancelled_.store(true, std::memory_order_relaxed);
@@ -239,7 +241,8 @@ class TileRender final : public Render, public WorkSource {
   // REQUIRES: mutex_.
   void open_step(int first, Clock::time_point now) {
     const int left = pass_first_ + pass_samples_ - first;
-    const int fitting = item_ms_per_sample_ > 0.0 ? static_cast<int>(std::min(1e6, kItemTargetMs / item_ms_per_sample_)) : 1;
+    const int fitting =
+        item_ms_per_sample_ > 0.0 ? static_cast<int>(std::min(1e6, kItemTargetMs / item_ms_per_sample_)) : 1;
     step_first_ = first;
     step_samples_ = std::clamp(fitting, 1, left);
     step_start_ = now;

@@ -38,22 +38,22 @@ struct ReportPoint {
 
 struct RenderReport {
   std::vector<ReportPoint> points;
-  std::string stop;  // "samples", "time", "passes", "cancelled"; empty while running
+  std::string stop;         // "samples", "time", "passes", "cancelled", "failed"; empty while running
   std::vector<int> passes;  // what passes: [...] replays
   int threads = 0;
 };
 
 struct RenderProgress {
   RenderState state = RenderState::running;
-  int spp = 0;             // samples a pixel in whole passes so far
-  double fraction = 0.0;   // [0, 1]
+  int spp = 0;            // samples a pixel in whole passes so far
+  double fraction = 0.0;  // [0, 1]
   double elapsed_ms = 0.0;
-  double eta_ms = -1.0;    // < 0: unknown
-  std::string error;       // state failed only
+  double eta_ms = -1.0;  // < 0: unknown
+  std::string error;     // state failed only
 };
 
 struct RenderOptions {
-  int tile_px = 0;          // 0: chosen by measurement
+  int tile_px = 0;                // 0: chosen by measurement
   std::function<void()> on_pass;  // after each whole pass and at the end, from a pool thread; must be quick
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/base/facet.h"
 #include "renderer/scene/build.h"
 #include "renderer/scene/grammar.h"
 #include "renderer/scene/readers.h"
@@ -38,14 +39,9 @@ bool check_indices(Value indices, size_t position_count, Problems& problems) {
   return errors == 0;
 }
 
-// Judged apart from the edges' lengths, whose products may leave the range of a double.
 bool has_area(const MeshData& mesh, size_t corner) {
-  const auto edge_to = [&](size_t other) {
-    const Vec3 edge = mesh.positions[mesh.indices[other]] - mesh.positions[mesh.indices[corner]];
-    const double largest = std::max({std::fabs(edge.x), std::fabs(edge.y), std::fabs(edge.z)});
-    return largest > 0.0 ? edge / largest : edge;
-  };
-  return glm::cross(edge_to(corner + 1), edge_to(corner + 2)) != Vec3(0.0);
+  const auto at = [&](size_t k) { return mesh.positions[mesh.indices[corner + k]]; };
+  return geometric_normal(at(0), at(1), at(2)) != Vec3(0.0);
 }
 
 // Odd but meaningful: geometry repairs these, the author should know.

@@ -32,7 +32,7 @@ Camera build_camera(Value value, Problems& problems) {
                                           value.find("target") ? "" : "target is the origin unless it is given"});
   } else if (is_sound("up")) {
     const Vec3 view = moderate(camera.target - camera.position);
-    if (glm::cross(view, moderate(camera.up)) == Vec3(0.0)) {
+    if (glm::length(glm::cross(glm::normalize(view), glm::normalize(moderate(camera.up)))) <= kUpAlongViewSine) {
       problems.warn(value, "up_parallel_to_view", "up is parallel to the view; another axis takes its place");
     }
   }

@@ -19,7 +19,7 @@ struct Limits {
   int image_side = 65'537;  // pixels
   int samples = 4'096;      // a pixel
   int max_depth = 1'000;
-  int ray_budget = 1'000'000;  // rays a pixel sample
+  int ray_budget = 65'536;  // rays a pixel sample; 300 bytes each and thread while the sample is traced
   double time_ms = 600'000.0;
 };
 

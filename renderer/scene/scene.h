@@ -143,6 +143,9 @@ struct Camera {
   double height = 1.0;      // orthographic: scene units from the bottom to the top edge
   bool operator==(const Camera&) const = default;
 };
+// An up vector this near to the view (sine of the angle) says nothing: the world axis least aligned with the view, x
+// before y before z, takes its place.
+inline constexpr double kUpAlongViewSine = 1e-10;
 
 struct ImageSpec {
   int width = 1280, height = 720;  // pixels

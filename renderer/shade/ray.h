@@ -18,16 +18,22 @@ struct Departure {
   uint32_t prim = kNone;
 };
 
+// What a ray that leaves a surface does with other bodies' surfaces in the very same place (a glass foot standing on a
+// board). They are crossed in the order of their public ids: on the way on, those after the one just left; on the way
+// back, those before it.
+enum class Coincident : uint8_t { none, after, before };
+
 struct Ray {
   Vec3 origin{0.0};
   Vec3 direction{0.0};  // unit
   Departure left;
+  Coincident coincident = Coincident::none;
 };
 
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  // along the ray
-  uint32_t body = kNone;  // index into CompiledScene::bodies; kNone: a miss
-  uint32_t prim = 0;      // triangle of a mesh; face of a box (2 * axis + (1 on the upper side)); else 0
+  uint32_t body = kNone;                               // index into CompiledScene::bodies; kNone: a miss
+  uint32_t prim = 0;          // triangle of a mesh; face of a box (2 * axis + (1 on the upper side)); else 0
   double b0 = 0.0, b1 = 0.0;  // triangle: barycentric weights of vertices 0 and 1
   bool is_hit() const { return body != kNone; }
 };

@@ -42,15 +42,22 @@ Scatter scatter_opaque(const Surface& surface, const Vec3& incoming) {
   return out;
 }
 
+Scatter scatter_thin(const Surface& surface, const Vec3& incoming) {
+  Scatter out = scatter_opaque(surface, incoming);
+  out.refracted = incoming;
+  out.refract_weight = surface.material->source.transmission;
+  return out;
+}
+
 Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after) {
   const Material& m = surface.material->source;
-  Scatter out = scatter_opaque(surface, incoming);
   const double eta = ior_before / ior_after;
-  if (eta == 1.0) {  // nothing bends, nothing is reflected by the change of medium
-    out.refracted = incoming;
-    out.refract_weight = m.transmission;
+  if (eta == 1.0) {  // exactly straight on
+    Scatter out = scatter_thin(surface, incoming);
+    if (m.fresnel) out.mirror_weight = Color(0.0);
     return out;
   }
+  Scatter out = scatter_opaque(surface, incoming);
   // A shading normal turned from the viewer has no incoming side: fall back to the geometric one.
   Vec3 n = glm::dot(incoming, surface.normal) < 0.0 ? surface.normal : surface.geometric_normal;
   Refraction bent = refract(incoming, n, eta);

@@ -11,14 +11,17 @@ namespace tilelight {
 Vec3 mirror_direction(const Surface& surface, const Vec3& incoming);
 
 struct Scatter {
-  Vec3 mirrored{0.0}, refracted{0.0};          // unit
+  Vec3 mirrored{0.0}, refracted{0.0};  // unit
   Color mirror_weight{0.0}, refract_weight{0.0};
 };
 
 // A surface that only reflects: kr.
 Scatter scatter_opaque(const Surface& surface, const Vec3& incoming);
 
-// A transparent surface. ior_before, ior_after: of the media on this and on the other side; equal for thin surfaces.
+// A transparent surface without an inside: kr, and kt straight on.
+Scatter scatter_thin(const Surface& surface, const Vec3& incoming);
+
+// A surface of a medium. ior_before, ior_after: of the media on this and on the other side.
 // Snell's law; total internal reflection sends kr + kt into the mirror direction. With Material::fresnel the weights
 // are kr F and kt (1 - F), F the reflectance of unpolarised light, 1 in total reflection.
 Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after);

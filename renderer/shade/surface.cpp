@@ -29,7 +29,8 @@ LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
   return out;
 }
 
-// The hit in the body's local space, reprojected, so that its error is that of the primitive and not of the ray's length.
+// The hit in the body's local space, reprojected, so that its error is that of the primitive and not of the ray's
+// length.
 LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit) {
   if (body.kind == BodyKind::mesh) return triangle_point(*body.mesh, hit);
   LocalPoint out;
@@ -51,7 +52,8 @@ LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit)
       out.position.y = 0.0;
       out.geometric.y = 1.0;
       break;
-    case BodyKind::mesh: break;
+    case BodyKind::mesh:
+      break;
   }
   out.shading = out.geometric;
   return out;
@@ -94,10 +96,8 @@ Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit)
   out.geometric_normal = glm::normalize(body.world_from_normal * local.geometric);
   out.normal = glm::normalize(body.world_from_normal * local.shading);
   out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
-  if (!out.from_outside) {
-    out.geometric_normal = -out.geometric_normal;
-    out.normal = -out.normal;
-  }
+  if (!out.from_outside) out.geometric_normal = -out.geometric_normal;
+  if (glm::dot(out.normal, out.geometric_normal) < 0.0) out.normal = -out.normal;
   out.ambient = paint_color(out.material->source.ambient, body, local);
   out.diffuse = paint_color(out.material->source.diffuse, body, local);
   return out;

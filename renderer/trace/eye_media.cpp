@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/tile_job.h"
@@ -8,43 +11,59 @@
 namespace tilelight {
 namespace {
 
-// Inside or outside by the sign of Ng.d at the nearest triangle along a direction; every triangle is tried, since this is
+constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
+
+// Inside or outside by the sign of Ng.d at the nearest triangle along the ray; every triangle is tried, since this is
 // asked once a view.
-bool is_inside_mesh(const CompiledMesh& mesh, const Vec3& point) {
-  const Vec3 direction(0.5773, 0.5791, 0.5756);  // generic: along no axis or diagonal of a modelled shape
-  const Shear shear(direction);
+std::optional<double> mesh_exit(const CompiledMesh& mesh, const LocalRay& ray) {
+  const Shear shear(ray.direction);
   double nearest = std::numeric_limits<double>::infinity();
   bool inside = false;
   for (const auto& tri : mesh.triangles) {
     const Vec3 &a = mesh.positions[tri[0]], &b = mesh.positions[tri[1]], &c = mesh.positions[tri[2]];
     TriangleHit hit;
-    if (!intersect_triangle(a, b, c, point, shear, hit) || !(hit.t > 0.0) || !(hit.t < nearest)) continue;
+    if (!intersect_triangle(a, b, c, ray.origin, shear, hit) || !(hit.t > 0.0) || !(hit.t < nearest)) continue;
     nearest = hit.t;
-    inside = glm::dot(glm::cross(b - a, c - a), direction) > 0.0;
+    inside = glm::dot(glm::cross(b - a, c - a), ray.direction) > 0.0;
   }
-  return inside;
+  return inside ? std::optional(nearest) : std::nullopt;
 }
 
-bool is_inside(const CompiledBody& body, const Vec3& point) {
-  const Vec3 p = transform_point(body.local_from_world, point);
+// How far it is along the ray to the surface of the body; none if the ray starts outside.
+std::optional<double> exit_distance(const CompiledBody& body, const Ray& world_ray) {
+  const LocalRay ray = to_local(body, world_ray);
+  const Vec3 p = glm::abs(ray.origin);
+  double t = 0.0;
+  uint32_t face = 0;
   switch (body.kind) {
-    case BodyKind::sphere: return glm::dot(p, p) < 1.0;
-    case BodyKind::box: return std::abs(p.x) < body.half.x && std::abs(p.y) < body.half.y && std::abs(p.z) < body.half.z;
-    case BodyKind::mesh: return is_inside_mesh(*body.mesh, p);
-    case BodyKind::plane: return false;
+    case BodyKind::sphere:
+      if (!(glm::dot(p, p) < 1.0) || !intersect_sphere(ray, false, kAhead, t)) return std::nullopt;
+      return t;
+    case BodyKind::box:
+      if (!(p.x < body.half.x && p.y < body.half.y && p.z < body.half.z)) return std::nullopt;
+      return intersect_box(body.half, ray, kNone, kAhead, t, face) ? std::optional(t) : std::nullopt;
+    case BodyKind::mesh:
+      return mesh_exit(*body.mesh, ray);
+    case BodyKind::plane:
+      break;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
 
 MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan) {
-  MediaSet media;
-  if (!plan.features.has(Feature::transmission)) return media;
+  // Along no axis or diagonal of a modelled shape.
+  const Ray ray{plan.eye.origin, glm::normalize(Vec3(0.31415, 0.59265, 0.35897)), {}};
+  std::vector<std::pair<double, uint32_t>> around;  // by distance, the farthest first: the order of entering
   for (uint32_t i = 0; i < scene.finite_bodies; ++i) {
     const CompiledBody& body = scene.bodies[i];
-    if (body.closed && scene.materials[body.material].is_transmissive && is_inside(body, plan.eye.origin)) media.enter(i);
+    if (!body.closed || !scene.materials[body.material].is_transmissive) continue;
+    if (const auto exit = exit_distance(body, ray)) around.emplace_back(-*exit, i);
   }
+  std::sort(around.begin(), around.end());
+  MediaSet media;
+  for (const auto& [order, body] : around) media.enter(body);
   return media;
 }
 

@@ -19,15 +19,46 @@ inline LocalRay to_local(const CompiledBody& body, const Ray& ray) {
   return {transform_point(body.local_from_world, ray.origin), transform_vector(body.local_from_world, ray.direction)};
 }
 
-// Rounding of a point near the scene, normalised units: hits nearer than this to the surface just left are its own.
-inline double t_min_of(const Ray& ray) {
-  if (ray.left.body == kNone) return 0.0;
-  return 0x1p-40 * (1.0 + std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z));
+// Where a ray starts on a surface, other surfaces may lie in the same place, within the rounding of a point near the
+// scene. Along the ray that rounding is longer the flatter the ray meets the surface, up to `reach`.
+struct Start {
+  double noise = 0.0;  // across a surface, normalised units; 0 for a ray from the eye
+  double reach = 0.0;  // along the ray
+};
+inline Start start_of(const Ray& ray) {
+  if (ray.left.body == kNone) return {};
+  const double noise = 0x1p-44 * (1.0 + std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z));
+  return {noise, 0x1p20 * noise};
 }
 
-// Unit sphere. Hearn and Baker's form (Haines et al., Ray Tracing Gems ch. 7): the discriminant as a squared distance from
-// the centre, and no difference of nearly equal numbers in the roots. has_left: the origin lies on the sphere.
-inline bool intersect_sphere(const LocalRay& ray, bool has_left, double t_min, double& t) {
+// |cosine| between a world direction and the body's geometric normal at a hit at t.
+inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec3& world_direction, uint32_t prim,
+                        double t) {
+  Vec3 n(0.0);
+  switch (body.kind) {
+    case BodyKind::sphere:
+      n = ray.origin + t * ray.direction;
+      break;
+    case BodyKind::box:
+      n[static_cast<int>(prim / 2)] = 1.0;
+      break;
+    case BodyKind::plane:
+      n.y = 1.0;
+      break;
+    case BodyKind::mesh: {
+      const auto& tri = body.mesh->triangles[prim];
+      const Vec3& a = body.mesh->positions[tri[0]];
+      n = glm::cross(body.mesh->positions[tri[1]] - a, body.mesh->positions[tri[2]] - a);
+    }
+  }
+  return std::abs(glm::dot(glm::normalize(body.world_from_normal * n), world_direction));
+}
+
+// Unit sphere. Hearn and Baker's form (Haines et al., Ray Tracing Gems ch. 7): the discriminant as a squared distance
+// from the centre, and no difference of nearly equal numbers in the roots. has_left: the origin lies on the sphere.
+// is_ahead(t, prim): whether a hit counts, asked from the nearest on.
+template <class IsAhead>
+bool intersect_sphere(const LocalRay& ray, bool has_left, const IsAhead& is_ahead, double& t) {
   const Vec3 &o = ray.origin, &d = ray.direction;
   const double a = glm::dot(d, d);
   const double b = -glm::dot(o, d);
@@ -43,13 +74,14 @@ inline bool intersect_sphere(const LocalRay& ray, bool has_left, double t_min, d
   const double c = glm::dot(o, o) - 1.0;
   const double r0 = c / q, r1 = q / a;
   const double near = std::fmin(r0, r1), far = std::fmax(r0, r1);
-  t = near > t_min ? near : far;
-  return t > t_min;
+  t = is_ahead(near, 0) ? near : far;
+  return t == near || is_ahead(far, 0);
 }
 
 // The box [-half, half] by its three slabs; the faces belong to it. left_face: the face the origin lies on, or kNone.
-inline bool intersect_box(const Vec3& half, const LocalRay& ray, uint32_t left_face, double t_min, double& t,
-                          uint32_t& face) {
+template <class IsAhead>
+bool intersect_box(const Vec3& half, const LocalRay& ray, uint32_t left_face, const IsAhead& is_ahead, double& t,
+                   uint32_t& face) {
   if (left_face != kNone) {
     const int axis = static_cast<int>(left_face / 2);
     const bool is_outward = left_face % 2 ? ray.direction[axis] >= 0.0 : ray.direction[axis] <= 0.0;
@@ -72,22 +104,23 @@ inline bool intersect_box(const Vec3& half, const LocalRay& ray, uint32_t left_f
   }
   constexpr double kSlack = 1.0 + 0x1p-50;  // of the two quotients: an edge belongs to the box (Ize 2013)
   if (!(near <= (far > 0.0 ? far * kSlack : far))) return false;
-  const bool from_outside = left_face == kNone && near > t_min;
+  const bool from_outside = left_face == kNone && is_ahead(near, near_face);
   t = from_outside ? near : far;
   face = from_outside ? near_face : far_face;
-  return t > t_min;
+  return from_outside || is_ahead(far, far_face);
 }
 
 // The plane y = 0.
-inline bool intersect_plane(const LocalRay& ray, bool has_left, double t_min, double& t) {
+template <class IsAhead>
+bool intersect_plane(const LocalRay& ray, bool has_left, const IsAhead& is_ahead, double& t) {
   if (has_left || ray.direction.y == 0.0) return false;
   t = -ray.origin.y / ray.direction.y;
-  return t > t_min;
+  return is_ahead(t, 0);
 }
 
 // Watertight triangle test in double (Woop, Benthin and Wald 2013, JCGT 2(1)): the triangle is sheared so that the ray
-// is the z axis, and three edge functions decide. They are antisymmetric bit for bit, so a ray between two triangles hits
-// at least one; an edge value of 0 counts as inside for both, and the lower id wins.
+// is the z axis, and three edge functions decide. They are antisymmetric bit for bit, so a ray between two triangles
+// hits at least one; an edge value of 0 counts as inside for both, and the lower id wins.
 struct Shear {
   int kx = 0, ky = 1, kz = 2;
   double sx = 0.0, sy = 0.0, sz = 1.0;
@@ -119,16 +152,6 @@ inline bool intersect_triangle(const Vec3& v0, const Vec3& v1, const Vec3& v2, c
   hit.b0 = u * scale;
   hit.b1 = v * scale;
   return true;
-}
-
-// Two hits closer than the rounding of t in double are a tie, which the lower id wins, so that
-// coplanar surfaces show one colour everywhere.
-inline bool is_nearer(double t, uint32_t public_body, uint32_t prim, const Hit& best, uint32_t best_public_body) {
-  if (!best.is_hit()) return true;
-  const double tie = 0x1p-46 * (1.0 + std::abs(t));
-  if (t < best.t - tie) return true;
-  if (t > best.t + tie) return false;
-  return public_body != best_public_body ? public_body < best_public_body : prim < best.prim;
 }
 
 }  // namespace tilelight

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. The kernel traces `sample_count` samples of every pixel of the tile and adds them to the film in index order.
+// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. The kernel traces
+// `sample_count` samples of every pixel of the tile and adds them to the film in index order.
 #pragma once
 
 #include <atomic>
@@ -17,9 +18,9 @@ namespace tilelight {
 // What a work item did; summed over items in any order (integers and maxima only).
 struct TileCounts {
   int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;  // rays
-  int64_t nonfinite = 0;          // samples that were not finite
-  double untraced_weight = 0.0;   // largest weight one sample left untraced
-  bool is_complete = false;       // false: cancelled on the way; the tile holds part of its samples
+  int64_t nonfinite = 0;                                          // samples that were not finite, or over 1e34
+  double untraced_weight = 0.0;                                   // largest weight one sample left untraced
+  bool is_complete = false;  // false: cancelled on the way; the tile holds part of its samples
 };
 
 // Writes down every ray of one sample, for explanations. Called in breadth-first order.
@@ -43,13 +44,13 @@ class RayListener {
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
-  const MediaSet* eye_media = nullptr;     // of an eye inside glass
-  TileView* film = nullptr;                // null: nothing is written (explanations)
+  const MediaSet* eye_media = nullptr;  // of an eye inside glass
+  TileView* film = nullptr;             // null: nothing is written (explanations)
   TileRect rect;
   uint32_t first_sample = 0, sample_count = 1;
   const std::atomic<bool>* cancelled = nullptr;  // read every row; may be null
   TileCounts* counts = nullptr;
-  RayListener* listener = nullptr;         // kernel `explain` only
+  RayListener* listener = nullptr;  // kernel `explain` only
 };
 
 using Kernel = void (*)(const TileJob&);

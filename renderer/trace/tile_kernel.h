@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tile kernel: a batch of pixel samples goes through the scene breadth first, level of recursion by level: closest
-// hits, local light with its shadow rays, then the mirrored and refracted rays of the next level. A sample's sum is
-// formed in that order, whatever the batch, so the image does not depend on tiles or threads.
+// hits, local light with its shadow rays, then the mirrored and refracted rays of the next level. A level that grows
+// too long is cut between samples, and each part goes to its end before the next, so that memory and the answer to a
+// cancel stay bounded. A sample's sum is formed in its own order, whatever the batch, so the image does not depend on
+// tiles or threads.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <span>
 #include <vector>
 
 #include "renderer/film/sampling.h"
 #include "renderer/shade/scatter.h"
+#include "renderer/trace/intersect.h"
 #include "renderer/trace/tile_job.h"
 #include "renderer/trace/trace_rays.h"
 
@@ -17,10 +22,10 @@ namespace tilelight {
 
 // What a kernel variant is able to do; the rest is not compiled into it.
 struct Abilities {
-  bool mirrors = false;   // secondary rays at all
-  bool glass = false;     // transmission, media, tinted shadows
+  bool mirrors = false;  // secondary rays at all
+  bool glass = false;    // transmission, media, tinted shadows
   bool shadows = false;
-  bool listens = false;   // explanations
+  bool listens = false;  // explanations
 };
 
 template <Abilities kCan>
@@ -34,11 +39,11 @@ class TileKernel {
     const int rows = std::max(1, kBatchPixels / std::max(1, job_.rect.width()));
     for (uint32_t s = 0; s < job_.sample_count; ++s) {
       for (int y = job_.rect.y0; y < job_.rect.y1; y += rows) {
-        if (job_.cancelled && job_.cancelled->load(std::memory_order_relaxed)) return;
+        if (is_cancelled()) return;
         render_rows(y, std::min(y + rows, job_.rect.y1), job_.first_sample + s);
       }
     }
-    counts_.is_complete = true;
+    counts_.is_complete = !is_cancelled();
   }
 
  private:
@@ -62,29 +67,70 @@ class TileKernel {
     uint32_t sample;
   };
 
+  bool is_cancelled() const { return job_.cancelled && job_.cancelled->load(std::memory_order_relaxed); }
+
   void render_rows(int y0, int y1, uint32_t index) {
     start_batch(y0, y1, index);
-    while (!level_.rays.empty()) {
-      hits_.resize(level_.rays.size());
-      trace_closest(scene_, level_.rays, hits_);
-      next_.clear();
-      shadow_rays_.clear();
-      pending_.clear();
-      for (size_t i = 0; i < hits_.size(); ++i) {
-        if constexpr (kCan.glass) pass_unseen(level_.rays[i], level_.paths[i], hits_[i]);
-        shade(level_.rays[i].ray, level_.paths[i], hits_[i]);
-      }
-      if constexpr (kCan.shadows) {
-        find_visible(shadow_rays_);
-        for (size_t i = 0; i < pending_.size(); ++i) radiance_[pending_[i].sample] += pending_[i].light * visible_[i];
-      }
-      std::swap(level_, next_);
-    }
+    follow_levels(0);
     finish_batch(y0, y1);
   }
 
+  // Takes the rays of levels_[depth] and all their descendants to the end. Rays of one sample are neighbours.
+  void follow_levels(size_t depth) {
+    constexpr size_t kPartRays = 1024;
+    const size_t count = levels_[depth].rays.size();
+    for (size_t first = 0, last = 0; first < count && !is_cancelled(); first = last) {
+      last = end_of_part(levels_[depth], first, kPartRays);
+      if (levels_.size() == depth + 1) levels_.emplace_back();
+      levels_[depth + 1].clear();
+      const size_t media_before = media_.size();
+      trace_part(levels_[depth], first, last, levels_[depth + 1]);
+      if (!levels_[depth + 1].rays.empty()) follow_levels(depth + 1);
+      media_.resize(media_before, MediaSet());
+    }
+  }
+
+  // Where the part from `first` on ends: after the last whole sample that fits, but after one sample at least.
+  static size_t end_of_part(const Level& level, size_t first, size_t size) {
+    const size_t count = level.paths.size();
+    if (count - first <= size) return count;
+    const auto is_cut = [&](size_t i) { return level.paths[i - 1].sample != level.paths[i].sample; };
+    size_t end = first + size;
+    while (end > first && !is_cut(end)) --end;
+    if (end > first) return end;
+    for (end = first + size; end < count && !is_cut(end);) ++end;
+    return end;
+  }
+
+  void trace_part(Level& level, size_t first, size_t last, Level& next) {
+    constexpr size_t kShadowRays = 4096;  // lit by many lights, a part is lit in pieces; cut between samples
+    const std::span<BoundedRay> rays = std::span(level.rays).subspan(first, last - first);
+    hits_.resize(rays.size());
+    trace_closest(scene_, rays, hits_);
+    next_ = &next;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      Path& path = level.paths[first + i];
+      if (shadow_rays_.size() >= kShadowRays && path.sample != pending_.back().sample) add_lights();
+      if constexpr (kCan.glass) pass_unseen(rays[i], path, hits_[i]);
+      shade(rays[i].ray, path, hits_[i]);
+    }
+    add_lights();
+  }
+
+  // Adds what the lights bring to the hits shaded so far, where nothing stands between.
+  void add_lights() {
+    if constexpr (kCan.shadows) {
+      find_visible(shadow_rays_);
+      for (size_t i = 0; i < pending_.size(); ++i) radiance_[pending_[i].sample] += pending_[i].light * visible_[i];
+      shadow_rays_.clear();
+      pending_.clear();
+    }
+  }
+
   void start_batch(int y0, int y1, uint32_t index) {
-    level_.clear();
+    if (levels_.empty()) levels_.emplace_back();
+    Level& primary = levels_[0];
+    primary.clear();
     media_.clear();
     if constexpr (kCan.glass) media_.push_back(*job_.eye_media);
     const Eye& eye = plan_.eye;
@@ -95,7 +141,7 @@ class TileKernel {
         const Vec3 at = eye.corner + (x + p.x) * eye.step_x + (y + p.y) * eye.step_y;
         const Ray ray = eye.projection == Projection::perspective ? Ray{eye.origin, glm::normalize(at), {}}
                                                                   : Ray{eye.origin + at, eye.forward, {}};
-        level_.push(ray, {Color(1.0), sample, 0, 0, "primary"});
+        primary.push(ray, {Color(1.0), sample, 0, 0, "primary"});
       }
     }
     counts_.primary += sample;
@@ -125,8 +171,10 @@ class TileKernel {
       Color seen(0.0);
       if (sample.is_lit) {
         const Color arriving = path.weight * (sample.diffuse + sample.specular);
-        // A surface that the light itself lies on does not hide it: the ray ends before, by the rounding of the distance.
-        const BoundedRay shadow{{surface.position, sample.to_light, surface.here}, sample.distance * (1.0 - 0x1p-40)};
+        // A surface that the light itself lies on does not hide it: the ray ends before, by the rounding of the
+        // distance.
+        const BoundedRay shadow{{surface.position, sample.to_light, surface.here, Coincident::before},
+                                sample.distance * (1.0 - 0x1p-40)};
         seen = Color(1.0);
         if (!(kCan.shadows && source.shadow && spec_.shadows)) {
           radiance_[path.sample] += arriving;
@@ -163,8 +211,11 @@ class TileKernel {
       if (!hit.is_hit()) return;
       visible *= scene_.materials[scene_.bodies[hit.body].material].source.transmission;  // 0 for what is opaque
       if (visible == Color(0.0)) return;
+      // A surface in the very place of the start was crossed on the way back; others there have been dealt with.
+      const bool was_coincident = hit.t <= start_of(shadow.ray).noise && shadow.ray.coincident == Coincident::before;
       shadow.ray.origin += hit.t * shadow.ray.direction;
       shadow.ray.left = {hit.body, hit.prim};
+      shadow.ray.coincident = was_coincident ? Coincident::none : Coincident::after;
       shadow.t_max -= hit.t;
       ++counts_.shadow;
     }
@@ -179,15 +230,15 @@ class TileKernel {
     return scene_.bodies[body].closed && scene_.materials[scene_.bodies[body].material].is_transmissive;
   }
 
-  // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the ray
-  // gets no deeper.
+  // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
+  // ray gets no deeper.
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
     while (hit.is_hit() && is_medium(hit.body)) {
       const Surface surface = make_surface(scene_, ray.ray, hit);
       const Crossing crossing(scene_, media_[path.media], hit.body, surface.from_outside);
       if (crossing.is_seen) return;
       path.media = keep(crossing.after);
-      ray.ray = {surface.position, ray.ray.direction, surface.here};
+      ray.ray = {surface.position, ray.ray.direction, surface.here, Coincident::after};
       trace_closest(scene_, {&ray, 1}, {&hit, 1});
     }
   }
@@ -209,11 +260,13 @@ class TileKernel {
       out = scatter_transparent(surface, ray.direction, crossing.before.ior(scene_), crossing.after.ior(scene_));
       here = keep(crossing.before), beyond = keep(crossing.after);
     } else {
-      out = scatter_transparent(surface, ray.direction, 1.0, 1.0);  // thin
+      out = scatter_thin(surface, ray.direction);
     }
-    if (follow(path, surface, out.mirrored, out.mirror_weight, here, "reflected")) ++counts_.reflected;
+    if (follow(path, surface, out.mirrored, out.mirror_weight, here, Coincident::before, "reflected"))
+      ++counts_.reflected;
     if constexpr (kCan.glass) {
-      if (follow(path, surface, out.refracted, out.refract_weight, beyond, "refracted")) ++counts_.refracted;
+      if (follow(path, surface, out.refracted, out.refract_weight, beyond, Coincident::after, "refracted"))
+        ++counts_.refracted;
     }
   }
 
@@ -221,7 +274,7 @@ class TileKernel {
 
   // Queues a ray of the next level, if depth, weight and budget allow it.
   bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor, uint32_t media,
-              const char* kind) {
+              Coincident coincident, const char* kind) {
     const Color weight = path.weight * factor;
     if (!(largest(weight) > 0.0)) return false;
     if (path.depth >= spec_.max_depth || largest(weight) < spec_.weight_cutoff ||
@@ -230,7 +283,8 @@ class TileKernel {
       return false;
     }
     ++spent_[path.sample];
-    next_.push({surface.position, direction, surface.here}, {weight, path.sample, media, path.depth + 1, kind});
+    next_->push({surface.position, direction, surface.here, coincident},
+                {weight, path.sample, media, path.depth + 1, kind});
     return true;
   }
 
@@ -243,7 +297,9 @@ class TileKernel {
     for (int y = y0; y < y1; ++y) {
       for (int x = job_.rect.x0; x < job_.rect.x1; ++x, ++sample) {
         const Color& c = radiance_[sample];
-        const bool is_finite = std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+        // More than this no sum of samples in float can hold.
+        constexpr double kMost = 1e34;
+        const bool is_finite = std::abs(c.r) < kMost && std::abs(c.g) < kMost && std::abs(c.b) < kMost;
         counts_.nonfinite += !is_finite;
         counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[sample]);
         if (!job_.film) continue;
@@ -258,15 +314,16 @@ class TileKernel {
   const ViewPlan& plan_;
   const RenderSpec& spec_;
   TileCounts& counts_;
-  Level level_, next_;
+  std::deque<Level> levels_;  // by depth; a deque, so that a level stays where it is while deeper ones come
+  Level* next_ = nullptr;     // takes the rays that the part in work sends out
   std::vector<Hit> hits_;
   std::vector<BoundedRay> shadow_rays_;
-  std::vector<Pending> pending_;    // what each shadow ray decides
-  std::vector<Color> visible_;      // the answers
+  std::vector<Pending> pending_;  // what each shadow ray decides
+  std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
   std::vector<MediaSet> media_;
-  std::vector<Color> radiance_;     // by sample of the batch
-  std::vector<int> spent_;          // rays after the primary one
+  std::vector<Color> radiance_;  // by sample of the batch
+  std::vector<int> spent_;       // rays after the primary one
   std::vector<double> untraced_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays against the compiled scene, a batch at a time: the only code that is compiled for several instruction sets. One
-// dispatched call a batch, never a ray. Every ray's answer depends on that ray alone. Any thread.
+// dispatched call a batch; only what follows a ray alone (tinted shadows, hidden surfaces) comes one by one. Every
+// ray's answer depends on that ray alone. Any thread.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversal of the 8-wide trees by single rays: boxes and triangles pass a float filter eight at a time, and what is left
-// is decided in double (intersect.h). The filter errs on the side of passing, so the image does not depend on it, nor on
-// the order of traversal, nor on the instruction set.
+// Traversal of the 8-wide trees by single rays: boxes and triangles pass a float filter eight at a time, and what is
+// left is decided in double (intersect.h). The filter errs on the side of passing, so the image does not depend on it,
+// nor on the order of traversal, nor on the instruction set.
 #include "renderer/trace/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -23,15 +23,15 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::CappedTag<float, 8>;
 
-// A ray as the filters see it: float, in a normalised space, its origin moved along the ray to within a few units of that
-// space's centre, so that its rounding is about 2^-23 however far the eye is.
+// A ray as the filters see it: float, in a normalised space, its origin moved along the ray to within a few units of
+// that space's centre, so that its rounding is about 2^-23 however far the eye is.
 struct FilterRay {
   float origin[3], direction[3], inverse[3];
-  int near_side[3];   // 0: enters by the lower plane
+  int near_side[3];    // 0: enters by the lower plane
   float t_min, t_max;  // in units of the space, from the moved origin
-  double shift;       // the moved origin lies at this t
-  double length;      // of a unit of t in the space
-  Vec3 moved;         // the moved origin, exact
+  double shift;        // the moved origin lies at this t
+  double length;       // of a unit of t in the space
+  Vec3 moved;          // the moved origin, exact
 };
 
 // Distances in the filter are widened by this before they discard anything: more than their rounding.
@@ -62,8 +62,9 @@ HWY_INLINE FilterRay make_filter_ray(const LocalRay& ray, double t_min, double t
     f.inverse[axis] = 1.0f / d;
   }
   const double local_min = (t_min - f.shift) * f.length;
-  f.t_min = local_min < -1e30 ? -1e30f
-                              : static_cast<float>(local_min) - kFilterSlack * (1.0f + std::abs(static_cast<float>(local_min)));
+  f.t_min = local_min < -1e30
+                ? -1e30f
+                : static_cast<float>(local_min) - kFilterSlack * (1.0f + std::abs(static_cast<float>(local_min)));
   f.t_max = filter_t_max(t_max, f.shift, f.length);
   return f;
 }
@@ -118,7 +119,8 @@ struct FilterShear {
   int kx, ky, kz;
   float sx, sy, sz;
 };
-HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay& ray, const FilterShear& s, float t_max) {
+HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay& ray, const FilterShear& s,
+                                     float t_max) {
   const FloatTag tag;
   constexpr size_t kLanes = hn::MaxLanes(tag);
   using V = hn::Vec<FloatTag>;
@@ -139,7 +141,8 @@ HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay
     for (int e = 0; e < 3; ++e) {
       const int a = (e + 1) % 3, b = (e + 2) % 3;
       const V edge = hn::Sub(hn::Mul(x[b], y[a]), hn::Mul(y[b], x[a]));
-      const V bound = hn::Mul(slack, hn::Add(hn::Add(hn::Abs(x[a]), hn::Abs(y[a])), hn::Add(hn::Abs(x[b]), hn::Abs(y[b]))));
+      const V bound =
+          hn::Mul(slack, hn::Add(hn::Add(hn::Abs(x[a]), hn::Abs(y[a])), hn::Add(hn::Abs(x[b]), hn::Abs(y[b]))));
       some_positive = hn::Or(some_positive, hn::Gt(edge, bound));
       some_negative = hn::Or(some_negative, hn::Lt(edge, hn::Neg(bound)));
     }
@@ -159,7 +162,7 @@ template <bool kAnyHit>
 class Walk {
  public:
   Walk(const CompiledScene& scene, const BoundedRay& bounded)
-      : scene_(scene), ray_(bounded.ray), t_min_(t_min_of(bounded.ray)) {
+      : scene_(scene), ray_(bounded.ray), start_(start_of(bounded.ray)) {
     best_.t = bounded.t_max;
   }
 
@@ -168,7 +171,7 @@ class Walk {
       if (visit_body(static_cast<uint32_t>(i)) && kAnyHit) return best_;
     }
     if (scene_.tree.nodes.empty()) return best_;
-    const FilterRay filter = make_filter_ray({ray_.origin, ray_.direction}, t_min_, best_.t);
+    const FilterRay filter = make_filter_ray({ray_.origin, ray_.direction}, -start_.reach, best_.t);
     StackEntry stack[kStackSize];
     int top = 1;
     stack[0] = {0, filter.t_min};
@@ -195,40 +198,71 @@ class Walk {
     const CompiledBody& body = scene_.bodies[index];
     const LocalRay local = to_local(body, ray_);
     const bool has_left = ray_.left.body == index;
+    const auto is_ahead = [&](double at, uint32_t of) { return this->is_ahead(index, local, of, at); };
     double t = 0.0;
     uint32_t prim = 0;
     switch (body.kind) {
-      case BodyKind::mesh: return visit_mesh(index, body, local);
+      case BodyKind::mesh:
+        return visit_mesh(index, *body.mesh, local);
       case BodyKind::sphere:
-        if (!intersect_sphere(local, has_left, t_min_, t)) return false;
+        if (!intersect_sphere(local, has_left, is_ahead, t)) return false;
         break;
       case BodyKind::box:
-        if (!intersect_box(body.half, local, has_left ? ray_.left.prim : kNone, t_min_, t, prim)) return false;
+        if (!intersect_box(body.half, local, has_left ? ray_.left.prim : kNone, is_ahead, t, prim)) return false;
         break;
       case BodyKind::plane:
-        if (!intersect_plane(local, has_left, t_min_, t)) return false;
+        if (!intersect_plane(local, has_left, is_ahead, t)) return false;
         break;
     }
     return offer(index, prim, t, 0.0, 0.0);
   }
 
+  // Whether a hit lies ahead of the start. Where the start itself lies on the surface that is hit, the order of ids
+  // decides and not the sign of t.
+  bool is_ahead(uint32_t index, const LocalRay& local, uint32_t prim, double t) const {
+    if (t > start_.reach) return true;
+    if (!(t >= -start_.reach) || start_.noise == 0.0) return false;
+    const CompiledBody& body = scene_.bodies[index];
+    if (std::abs(t) * steepness(body, local, ray_.direction, prim, t) > start_.noise) return t > 0.0;
+    if (index == ray_.left.body || ray_.coincident == Coincident::none) return false;
+    return (body.body > scene_.bodies[ray_.left.body].body) == (ray_.coincident == Coincident::after);
+  }
+
   bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {
-    if (best_.is_hit()) {
-      if (!is_nearer(t, scene_.bodies[index].body, prim, best_, scene_.bodies[best_.body].body)) return false;
-    } else if (!(t < best_.t)) {
-      return false;
-    }
+    if (best_.is_hit() ? !is_nearer(index, prim, t) : !(t < best_.t)) return false;
     best_ = {t, index, prim, b0, b1};
     return true;
   }
 
-  bool visit_mesh(uint32_t index, const CompiledBody& body, const LocalRay& local) {
-    const CompiledMesh& mesh = *body.mesh;
+  // Two surfaces nearer to each other than rounding can tell, measured across them, are in one place, which the lower
+  // id wins: coplanar surfaces show one colour everywhere.
+  bool is_nearer(uint32_t index, uint32_t prim, double t) const {
+    const double noise = 0x1p-46 * (1.0 + std::abs(t));
+    const double gap = std::abs(t - best_.t);
+    if (gap > 0x1p20 * noise) return t < best_.t;
+    if (gap > noise) {
+      const double slope = std::max(steepness_at(index, prim, t), steepness_at(best_.body, best_.prim, best_.t));
+      if (gap * slope > noise) return t < best_.t;
+    }
+    const uint32_t body = scene_.bodies[index].body, best_body = scene_.bodies[best_.body].body;
+    return body != best_body ? body < best_body : prim < best_.prim;
+  }
+
+  double steepness_at(uint32_t index, uint32_t prim, double t) const {
+    const CompiledBody& body = scene_.bodies[index];
+    return steepness(body, to_local(body, ray_), ray_.direction, prim, t);
+  }
+
+  bool visit_mesh(uint32_t index, const CompiledMesh& mesh, const LocalRay& local) {
     if (mesh.bvh.nodes.empty()) return false;
-    const FilterRay filter = make_filter_ray(local, t_min_, best_.t);
+    const FilterRay filter = make_filter_ray(local, -start_.reach, best_.t);
     const Shear shear(local.direction);
-    const FilterShear filter_shear{shear.kx, shear.ky, shear.kz, static_cast<float>(shear.sx),
-                                   static_cast<float>(shear.sy), static_cast<float>(shear.sz * filter.length)};
+    const FilterShear filter_shear{shear.kx,
+                                   shear.ky,
+                                   shear.kz,
+                                   static_cast<float>(shear.sx),
+                                   static_cast<float>(shear.sy),
+                                   static_cast<float>(shear.sz * filter.length)};
     StackEntry stack[kStackSize];
     int top = 1;
     stack[0] = {0, filter.t_min};
@@ -246,7 +280,7 @@ class Walk {
       while (candidates != 0) {
         const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(candidates);
         candidates &= candidates - 1;
-        if (!offer_triangle(index, mesh, block.id[lane], filter, shear)) continue;
+        if (!offer_triangle(index, mesh, local, block.id[lane], filter, shear)) continue;
         if (kAnyHit) return true;
         found = true;
         t_max = filter_t_max(best_.t, filter.shift, filter.length);
@@ -255,21 +289,22 @@ class Walk {
     return found;
   }
 
-  bool offer_triangle(uint32_t index, const CompiledMesh& mesh, uint32_t id, const FilterRay& filter,
-                                 const Shear& shear) {
+  bool offer_triangle(uint32_t index, const CompiledMesh& mesh, const LocalRay& local, uint32_t id,
+                      const FilterRay& filter, const Shear& shear) {
     if (ray_.left.body == index && ray_.left.prim == id) return false;
     const auto& tri = mesh.triangles[id];
     TriangleHit hit;
-    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], filter.moved, shear, hit)) {
+    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], filter.moved, shear,
+                            hit)) {
       return false;
     }
     const double t = filter.shift + hit.t;
-    return t > t_min_ && offer(index, id, t, hit.b0, hit.b1);
+    return is_ahead(index, local, id, t) && offer(index, id, t, hit.b0, hit.b1);
   }
 
   const CompiledScene& scene_;
   const Ray& ray_;
-  const double t_min_;
+  const Start start_;
   Hit best_;
 };
 

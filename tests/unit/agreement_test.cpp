@@ -2,7 +2,11 @@
 // The kernels against the reference renderer on random scenes, by counts of pixels.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "renderer/measure/judge.h"
+#include "renderer/scene/parse.h"
 #include "tests/unit/agreement_scenes.h"
 
 namespace tilelight {
@@ -27,6 +31,38 @@ TEST(Agreement, OfKernelsAndReferenceHoldsOnRandomScenes) {
   EXPECT_EQ(total.pixels, int64_t{kScenes} * kSizePx * kSizePx);
   EXPECT_LE(total.id_mismatch_rate(), kMaxIdMismatchRate) << total.id_mismatches << " pixels";
   EXPECT_LE(total.q8_rate(), kMaxQ8Rate) << total.q8_differing << " pixels";
+}
+
+// Scenes whose surfaces coincide, or whose eye is inside of things, in both orders of the objects: what random scenes
+// do not come upon.
+TEST(Agreement, HoldsWhereSurfacesAndMediaMeetInOnePlace) {
+  const std::string glass = R"("material": "glass")",
+                    floor = R"({"type": "box", "min": [-3, -1, -3], "max": [3, 0, 3]})";
+  const std::string block = R"({"type": "box", "min": [-1, 0, -1], "max": [1, 1, 1], )" + glass + "}";
+  const std::string ball = R"({"type": "sphere", "center": [0, 1, 3], "radius": 2.5, )" + glass + "}";
+  const std::string bubble = R"({"type": "sphere", "center": [0, 1, 3], "radius": 1, "material": "air"})";
+  const std::string pool_floor = R"({"type": "plane"})";
+  const std::string twin = R"({"type": "box", "min": [-1, 0, -1], "max": [1, 1, 1]})";
+  TilePool pool;
+  for (const auto& [below, above] : {std::pair(floor, block), {pool_floor, block}, {ball, bubble}, {twin, block}}) {
+    for (const bool reversed : {false, true}) {
+      const std::string json = R"({"image": {"width": 64, "height": 48}, "camera": {"position": [0.3, 1.2, 3.1]},
+        "materials": {"glass": {"diffuse": 0.05, "reflection": 0.1, "transmission": [0.9, 0.6, 0.6]},
+                      "air": {"diffuse": 0, "transmission": 1, "ior": 1}},
+        "lights": [{"type": "point", "position": [2, 4, 1], "intensity": 5}],
+        "objects": [)" + (reversed ? above + ", " + below : below + ", " + above) +
+                               ", {\"type\": \"sphere\", \"center\": [-1.5, 0.5, -2]}]}";
+      const auto parsed = parse_scene(json, Limits{});
+      ASSERT_TRUE(parsed) << parsed.error().errors[0].detail << json;
+      for (const int depth : {8, 0}) {
+        View view = parsed->view;
+        view.render.max_depth = depth;
+        const ImageDifference d = judge_view(parsed->scene, view, pool).difference;
+        EXPECT_EQ(d.id_mismatches, 0) << json << depth;
+        EXPECT_LE(d.q8_differing, 1) << json << depth;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -22,11 +22,18 @@ const Order kRenderer = {{"base", {}},           {"scene", {"base"}},           
                          {"shade", {"compile"}}, {"trace", {"shade", "film"}},  {"raster", {"trace"}},
                          {"render", {"raster"}}, {"measure", {"render"}},       {"renderer", {"measure"}},
                          {"check", {"measure"}}, {"cli", {"check", "renderer"}}};
-const Order kServer = {
-    {"clock", {}},        {"random_id", {}},        {"config", {}},
-    {"log", {"clock"}},   {"metrics", {"clock"}},   {"scenes", {"config", "log", "metrics", "random_id"}},
-    {"jobs", {"scenes"}}, {"sessions", {"scenes"}}, {"http", {"jobs", "sessions"}},
-    {"app", {"http"}},    {"main", {"app"}}};
+const Order kServer = {{"clock", {}},
+                       {"process", {}},
+                       {"random_id", {}},
+                       {"config", {}},
+                       {"log", {"clock"}},
+                       {"metrics", {"clock"}},
+                       {"scenes", {"config", "log", "metrics", "random_id"}},
+                       {"jobs", {"scenes"}},
+                       {"sessions", {"scenes"}},
+                       {"http", {"jobs", "sessions"}},
+                       {"app", {"http", "process"}},
+                       {"main", {"app"}}};
 
 Names left_of(const Order& order, const std::string& room) {
   Names left;

@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <latch>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
 
 #include "renderer/render/pass_schedule.h"
 #include "renderer/render/predict.h"
@@ -120,6 +125,47 @@ TEST(Render, CancelStopsItAndKeepsWhatWholePassesMade) {
   EXPECT_NE(render->image(), nullptr);
 }
 
+TEST(Render, IsLetGoByThePoolWhenItEnds) {
+  TilePool pool(3);
+  const Prepared p = prepare(pool);
+  View small = p.view;
+  small.image.width = 40, small.image.height = 30;
+  small.render.samples = 2;
+  for (int i = 0; i < 50; ++i) {
+    auto render = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, small));
+    if (i % 2 == 1) render->cancel();
+    render->wait_ms(1e12);
+    const std::weak_ptr<Render> left = render;
+    render.reset();
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!left.expired() && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+    ASSERT_TRUE(left.expired()) << "render " << i << " is held";
+  }
+}
+
+TEST(Render, HoldsTheTruncationBoundOfGlassThatBendsNothing) {
+  // A thin sheet has no Fresnel term: it mirrors kr and lets kt through, and each of the two goes on.
+  constexpr const char* kSheets = R"({"image": {"width": 8, "height": 8}, "lights": [], "ambient": 1,
+    "camera": {"type": "orthographic", "height": 0.1, "position": [0, 0, 0], "target": [0, 0, -1]},
+    "render": {"samples": 1, "max_depth": %d, "weight_cutoff": 0},
+    "materials": {"m": {"ambient": 0.2, "diffuse": 0, "reflection": 0.4, "transmission": 0.5, "fresnel": true}},
+    "objects": [{"type": "plane", "point": [0, 0, -1], "normal": [0, 0, 1], "material": "m"},
+                {"type": "plane", "point": [0, 0, 1], "normal": [0, 0, 1], "material": "m"}]})";
+  TilePool pool(2);
+  const auto render = [&](int depth) {
+    std::string json(kSheets);
+    json.replace(json.find("%d"), 2, std::to_string(depth));
+    const Prepared p = prepare(pool, json.c_str());
+    const auto done = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, p.view));
+    done->wait_ms(1e12);
+    return std::pair(done->image()->rgb[0], done->report().points.back().truncation_bound);
+  };
+  const auto [deep, deep_bound] = render(40);
+  const auto [shallow, shallow_bound] = render(1);
+  EXPECT_GT(deep - shallow, 0.1f);
+  EXPECT_GE(shallow_bound, deep - shallow);
+}
+
 TEST(Render, TheTimeRuleEndsWithTheBestImageSoFar) {
   TilePool pool(2);
   Prepared p = prepare(pool);
@@ -176,8 +222,7 @@ TEST(PredictCost, ForetellsTheRaysOfTheRender) {
 
   p.view.render.time_ms = 1e-3;
   const CostPrediction cut = predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
-  EXPECT_EQ(cut.elapsed_ms, 1e-3);
-  EXPECT_LT(cut.mrays, cost.mrays);
+  EXPECT_NEAR(cut.mrays / cost.mrays, 0.25, 0.05) << "the first of four samples is always taken";
 }
 
 TEST(PredictCost, HoldsForOnePixelAndForAnImageOfOneRow) {
@@ -207,6 +252,23 @@ TEST(PassSchedule, DoublesUpToTheSamplesAskedFor) {
     done += next.samples;
   }
   EXPECT_EQ(passes, (std::vector<int>{1, 1, 2, 4, 3}));
+}
+
+TEST(PassSchedule, EndsAReplayByTheFirstRuleThatHolds) {
+  RenderSpec spec;
+  spec.passes = {1, 1, 2};
+  EXPECT_EQ(PassSchedule(spec).samples(), 4);
+  EXPECT_EQ(PassSchedule(spec).next(3, 4, 0, 1).stop, "passes");
+  spec.samples = 3;
+  const PassSchedule cut(spec);
+  EXPECT_EQ(cut.samples(), 3);
+  EXPECT_EQ(cut.next(2, 2, 0, 1).samples, 1);
+  EXPECT_EQ(cut.next(3, 3, 0, 1).stop, "passes");
+  spec.samples = 2;
+  EXPECT_EQ(PassSchedule(spec).next(2, 2, 0, 1).stop, "samples");
+  spec.time_ms = 5.0;
+  EXPECT_EQ(PassSchedule(spec).next(1, 1, 6.0, 1).stop, "time");
+  EXPECT_EQ(PassSchedule(spec).next(0, 0, 6.0, 1).samples, 1);
 }
 
 TEST(PassSchedule, CutsAPassToTheTimeThatIsLeft) {

@@ -101,7 +101,7 @@ TEST(Schema, StatesTheDefaultsThatHold) {
 TEST(Schema, NamesNothingThatThisReleaseCannotDo) {
   const std::string schema = scene_schema_json(Limits{});
   for (const char* word :
-       {"zbuffer", "warnock", "roberts", "flat\"", "gouraud", "rmse", "asset", "tent", "gaussian", "exact\""}) {
+       {"zbuffer", "warnock", "roberts", "flat\"", "gouraud", "rmse", "asset", "tent", "gaussian", "smooth\""}) {
     EXPECT_EQ(schema.find(word), std::string::npos) << word;
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray kernels against closed forms and against the laws they promise: watertight, the same on every instruction set.
+// The ray kernels against closed forms and against the laws they promise: watertight, the same on every instruction
+// set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,6 +62,8 @@ class TraceRays : public testing::Test {
   TilePool pool_{2};
 };
 
+constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
+
 TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
   for (const double far : {0.0, 1e2, 1e4, 1e7}) {
     Scene scene = scene_of({MeshShape{0}});
@@ -100,18 +103,19 @@ TEST_F(TraceRays, ABoxKeepsTheRaysThatRunInItsFaces) {
   double t = 0.0;
   uint32_t face = 0;
   for (const double zero : {0.0, -0.0}) {
-    EXPECT_TRUE(intersect_box(Vec3(1.0), {{1.0, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, 0.0, t, face));
+    EXPECT_TRUE(intersect_box(Vec3(1.0), {{1.0, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, t, face));
     EXPECT_DOUBLE_EQ(t, 4.0);
-    EXPECT_FALSE(intersect_box(Vec3(1.0), {{1.0 + 1e-15, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, 0.0, t, face));
+    EXPECT_FALSE(intersect_box(Vec3(1.0), {{1.0 + 1e-15, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, t, face));
   }
   // Flat: hit once, from both sides.
-  EXPECT_TRUE(intersect_box({1, 0, 1}, {{0.2, 3, 0.1}, {0, -1, 0}}, kNone, 0.0, t, face));
+  EXPECT_TRUE(intersect_box({1, 0, 1}, {{0.2, 3, 0.1}, {0, -1, 0}}, kNone, kAhead, t, face));
   EXPECT_DOUBLE_EQ(t, 3.0);
-  EXPECT_FALSE(intersect_box({1, 0, 1}, {{0.2, 0, 0.1}, {0, -1, 0}}, face, 0.0, t, face));
+  EXPECT_FALSE(intersect_box({1, 0, 1}, {{0.2, 0, 0.1}, {0, -1, 0}}, face, kAhead, t, face));
 }
 
 TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
-  const auto compiled = compile_scene(scene_of({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
+  const auto compiled =
+      compile_scene(scene_of({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
   for (int i = 0; i < 200; ++i) {
     const Vec3 aim(0.009 * (i - 100), 0.007 * (i - 90), 0.0), from(0.3, 0.2, 2.0);
     const Hit hit = closest(*compiled, {from, glm::normalize(aim - from), {}});
@@ -121,7 +125,8 @@ TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
 }
 
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
-  Scene scene = scene_of({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
+  Scene scene =
+      scene_of({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
   scene.meshes = {ball(3)};
   const auto compiled = compile_scene(scene, pool_);
   std::mt19937_64 random(11);
