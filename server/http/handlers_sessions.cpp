@@ -40,7 +40,7 @@ Reply put_session_view(Services& services, const Request& request) {
   if (!session) return no_such_session();
   auto body = read_view_body(request.body, session->base_view(), services.config.limits);
   if (!body) return ::tl::unexpected(body.error());
-  if (!services.sessions.reserve(session->id(), body->view.image)) {
+  if (!services.sessions.reserve(session->id(), body->seq, body->view.image)) {
     return busy("too_many_pixels", "the views of all sessions together have as many pixels as they may", 5);
   }
   session->set_view(body->seq, std::move(body->view), body->is_moving);

@@ -45,12 +45,14 @@ int64_t Sessions::pixels() const {
   return sum;
 }
 
-bool Sessions::reserve(const std::string& id, const ImageSpec& image) {
+bool Sessions::reserve(const std::string& id, int64_t seq, const ImageSpec& image) {
   const std::lock_guard lock(mutex_);
   const auto known = by_id_.find(id);
   if (known == by_id_.end()) return true;  // closed meanwhile: the view goes nowhere
+  if (seq <= known->second.view_seq) return true;
   if (pixels() - known->second.pixels + pixels_of(image) > kMaxPixels) return false;
   known->second.pixels = pixels_of(image);
+  known->second.view_seq = seq;
   return true;
 }
 

@@ -123,10 +123,12 @@ TEST_F(SessionsOfService, TheirPixelsAreLimitedTogether) {
   const auto compiled = compile_scene(scene->parsed.scene, pool);
   const std::string one = (*sessions.open(scene, compiled, scene->parsed.view))->id();
   const std::string two = (*sessions.open(scene, compiled, scene->parsed.view))->id();
-  EXPECT_TRUE(sessions.reserve(one, {8000, 8000, 0.0}));
-  EXPECT_FALSE(sessions.reserve(two, {4000, 4000, 0.0}));
-  EXPECT_TRUE(sessions.reserve(one, {640, 480, 0.0}));
-  EXPECT_TRUE(sessions.reserve(two, {4000, 4000, 0.0})) << "what one gave back";
+  EXPECT_TRUE(sessions.reserve(one, 2, {8000, 8000, 0.0}));
+  EXPECT_FALSE(sessions.reserve(two, 1, {4000, 4000, 0.0}));
+  EXPECT_TRUE(sessions.reserve(one, 1, {640, 480, 0.0})) << "older: ignored";
+  EXPECT_FALSE(sessions.reserve(two, 1, {4000, 4000, 0.0})) << "and gives nothing back";
+  EXPECT_TRUE(sessions.reserve(one, 3, {640, 480, 0.0}));
+  EXPECT_TRUE(sessions.reserve(two, 1, {4000, 4000, 0.0})) << "what one gave back";
 }
 
 TEST_F(SessionsOfService, ABadViewIs422AndChangesNothing) {
