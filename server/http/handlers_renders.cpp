@@ -55,15 +55,13 @@ struct Wish {
   return key;
 }
 
-// Answers a retry with the job that its first try led to, if there is one.
+// Answers a retry with the job that its first try led to, if it is still there.
 ::tl::expected<std::optional<Response>, Problem> answer_retry(Services& services, const Request& request,
-                                                              const std::string& key, const Wish& wish) {
-  if (key.empty()) return std::optional<Response>();
-  const auto seen = services.keys.claim(request.client, key, sha256_hex(request.body));
-  if (seen.is_other_body) {
+                                                              const IdempotencyKeys::Claim& claim, const Wish& wish) {
+  if (claim.is_other_body) {
     return problem(422, "idempotency_key_reused", "this Idempotency-Key came with another body before");
   }
-  const auto record = seen.job_id.empty() ? std::nullopt : services.jobs.find(seen.job_id);
+  const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
   if (!record) return std::optional<Response>();
   const WorkPtr work = services.jobs.work(record->id);
   if (wish.image && work) {
@@ -71,6 +69,43 @@ struct Wish {
     if (!image || *image) return image;
   }
   return std::optional<Response>(accepted_response(*services.jobs.find(record->id), request));
+}
+
+// What a POST of a render wants, read from its headers. The claim: of the request's idempotency key, if it has one.
+struct Order {
+  Wish wish;
+  std::optional<IdempotencyKeys::Claim> claim;
+};
+
+// The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
+JobRecord keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
+                   ImageFormat format) {
+  JobRecord record = services.jobs.keep(std::move(lease), request.client, format);
+  if (!order.claim) return record;
+  const std::string winner = services.keys.bind(*order.claim, record.id);
+  if (winner == record.id) return record;
+  auto first = services.jobs.find(winner);
+  if (!first) return record;  // deleted since
+  services.jobs.forget(record.id);
+  return std::move(*first);
+}
+
+Reply submit_render(Services& services, const Request& request, const Order& order) {
+  auto body = read_render_body(services, request.body, {"format", "priority"});
+  if (!body) return ::tl::unexpected(body.error());
+  const std::optional<ImageFormat>& image_format = order.wish.image;
+  // "format" says how a job keeps its image; an image that is waited for is what Accept says.
+  const ImageFormat format = image_format.value_or(body->format.value_or(ImageFormat::png));
+  const Priority priority = body->priority.value_or(image_format ? Priority::normal : Priority::batch);
+  auto lease = services.queue.submit(
+      {body->scene, std::move(body->view), format, priority, std::move(body->warnings), body->parse_ms});
+  if (!lease) return refused(services, lease.error());
+  if (image_format) {
+    auto image = wait_for_image(services, request, *lease->work(), format);
+    if (!image) return ::tl::unexpected(image.error());
+    if (*image) return std::move(**image);
+  }
+  return accepted_response(keep_job(services, std::move(*lease), request, order, format), request);
 }
 
 std::optional<int64_t> number_param(const Request& request, const std::string& name) {
@@ -89,32 +124,16 @@ Reply post_render(Services& services, const Request& request) {
   if (!wish) return ::tl::unexpected(wish.error());
   const auto key = read_idempotency_key(request);
   if (!key) return ::tl::unexpected(key.error());
-  auto retried = answer_retry(services, request, *key, *wish);
-  if (!retried) return ::tl::unexpected(retried.error());
-  if (*retried) return std::move(**retried);
-
-  auto body = read_render_body(services, request.body, {"format", "priority"});
-  if (!body) return ::tl::unexpected(body.error());
-  // "format" says how a job keeps its image; an image that is waited for is what Accept says.
-  const ImageFormat format = wish->image.value_or(body->format.value_or(ImageFormat::png));
-  const Priority priority = body->priority.value_or(wish->image ? Priority::normal : Priority::batch);
-  auto lease = services.queue.submit(
-      {body->scene, std::move(body->view), format, priority, std::move(body->warnings), body->parse_ms});
-  if (!lease) return refused(services, lease.error());
-  if (wish->image) {
-    auto image = wait_for_image(services, request, *lease->work(), format);
-    if (!image) return ::tl::unexpected(image.error());
-    if (*image) return std::move(**image);
-  }
-  JobRecord record = services.jobs.keep(std::move(*lease), request.client, format);
+  Order order{*wish, std::nullopt};
   if (!key->empty()) {
-    const std::string winner = services.keys.bind(request.client, *key, record.id);
-    if (winner != record.id) {  // a retry that came meanwhile made its job first
-      services.jobs.forget(record.id);
-      if (auto first = services.jobs.find(winner)) record = std::move(*first);
-    }
+    order.claim = services.keys.claim(request.client, *key, sha256_hex(request.body));
+    auto retried = answer_retry(services, request, *order.claim, *wish);
+    if (!retried) return ::tl::unexpected(retried.error());
+    if (*retried) return std::move(**retried);
   }
-  return accepted_response(record, request);
+  Reply reply = submit_render(services, request, order);
+  if (!reply && order.claim) services.keys.release(*order.claim);
+  return reply;
 }
 
 Reply list_renders(Services& services, const Request& request) {
