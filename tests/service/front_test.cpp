@@ -70,6 +70,13 @@ TEST_F(FrontOfService, LongTargetsAndHeadsAreRefused) {
   EXPECT_EQ(
       raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20'000, 'a') + "\r\n\r\n").status,
       431);
+  // A line alone, in a head that is not too large.
+  for (const size_t length : {7'999, 8'100, 8'190, 9'000}) {
+    const std::string line = "X:" + std::string(length - 2, 'a');
+    const auto answer = raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\n" + line + "\r\n\r\n");
+    EXPECT_EQ(answer.status, length > 8'000 ? 431 : 200) << length;
+    EXPECT_FALSE(answer.header("request-id").empty()) << length;
+  }
   std::string many = "GET / HTTP/1.1\r\nHost: localhost\r\n";
   for (int i = 0; i < 200; ++i) many += "X: y\r\n";
   EXPECT_EQ(raw(service_->port(), many + "\r\n").status, 431);
