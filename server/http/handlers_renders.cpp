@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-
 #include "renderer/base/hash.h"
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
+#include "server/http/text.h"
 
 namespace tilelight::server {
 namespace {
-
-constexpr double kImageWaitS = 30.0;
 
 ::tl::unexpected<Problem> no_such_render() {
   return problem(404, "no_such_render",
@@ -38,12 +35,12 @@ struct Wish {
   auto slot = services.waits.take();
   if (!slot) return ::tl::unexpected(slot.error());
   const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0));
-  if (request.gone.stop_requested()) return problem(408, "client_gone", "the client closed its connection");
+  if (request.gone.stop_requested()) return client_gone();
   if (!has_ended) return std::optional<Response>();
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(format, services.pool);
   if (!image) return problem(410, image.error().code, image.error().detail);
-  Response response = image_response(work, **image, format);
+  Response response = image_response(work, *image, format);
   response.with("Cache-Control", "no-store");
   return std::optional<Response>(std::move(response));
 }
@@ -78,15 +75,15 @@ struct Order {
 };
 
 // The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
-JobRecord keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
-                   ImageFormat format) {
-  JobRecord record = services.jobs.keep(std::move(lease), request.client, format);
-  if (!order.claim) return record;
-  const std::string winner = services.keys.bind(*order.claim, record.id);
-  if (winner == record.id) return record;
+Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
+                           ImageFormat format) {
+  auto record = services.jobs.keep(std::move(lease), request.client, format);
+  if (!record || !order.claim) return record;
+  const std::string winner = services.keys.bind(*order.claim, record->id);
+  if (winner == record->id) return record;
   auto first = services.jobs.find(winner);
   if (!first) return record;  // deleted since
-  services.jobs.forget(record.id);
+  services.jobs.forget(record->id);
   return std::move(*first);
 }
 
@@ -105,16 +102,9 @@ Reply submit_render(Services& services, const Request& request, const Order& ord
     if (!image) return ::tl::unexpected(image.error());
     if (*image) return std::move(**image);
   }
-  return accepted_response(keep_job(services, std::move(*lease), request, order, format), request);
-}
-
-std::optional<int64_t> number_param(const Request& request, const std::string& name) {
-  const auto text = request.param(name);
-  if (!text) return std::nullopt;
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size()) return std::nullopt;
-  return value;
+  const auto record = keep_job(services, std::move(*lease), request, order, format);
+  if (!record) return refused(services, record.error());
+  return accepted_response(*record, request);
 }
 
 }  // namespace
@@ -149,10 +139,9 @@ Reply list_renders(Services& services, const Request& request) {
     filter.limit = static_cast<int>(*limit);
   }
   if (const auto after = request.param("after")) {
-    const auto [end, error] = std::from_chars(after->data(), after->data() + after->size(), filter.before, 16);
-    if (error != std::errc() || end != after->data() + after->size()) {
-      return problem(400, "bad_query", "after must be a cursor from a Link header");
-    }
+    const auto cursor = whole_number<uint64_t>(*after, 16);
+    if (!cursor) return problem(400, "bad_query", "after must be a cursor from a Link header");
+    filter.before = *cursor;
   }
   const int limit = filter.limit++;  // one more tells whether there is a next page
   auto records = services.jobs.list(filter);
@@ -223,9 +212,10 @@ Reply get_render_pixel(Services& services, const Request& request) {
   }
   auto slot = services.waits.take();
   if (!slot) return ::tl::unexpected(slot.error());
-  const CompiledPtr compiled = services.compiled.wait(work->request().scene, Priority::normal, request.gone);
-  if (!compiled) return problem(500, "internal", "the scene could not be compiled");
-  auto json = explain_pixel_json(*compiled, plan_view(*compiled, work->request().view), static_cast<int>(*x),
+  const auto compiled = wait_compiled(services, request, work->request().scene, Priority::normal);
+  if (!compiled) return ::tl::unexpected(compiled.error());
+  const CompiledScene& scene = **compiled;
+  auto json = explain_pixel_json(scene, plan_view(scene, work->request().view), static_cast<int>(*x),
                                  static_cast<int>(*y), static_cast<int>(*sample));
   if (!json) return problem(422, json.error().code, json.error().detail);
   return json_response(200, std::move(*json)).with("Cache-Control", "no-cache");

@@ -95,6 +95,23 @@ TEST_F(FrontOfService, OneConnectionServesManyRequestsAlsoPipelined) {
   EXPECT_TRUE(client.at_end());
 }
 
+TEST_F(FrontOfService, ABodyThatManyReadSlowlyIsInMemoryOnce) {
+  Service own;
+  const std::string scene = small_scene() + std::string(8 << 20, ' ');
+  const std::string path = own.post("/v1/scenes", scene).header("location");
+  std::vector<std::unique_ptr<HttpClient>> readers;
+  for (int i = 0; i < 20; ++i) {
+    readers.push_back(std::make_unique<HttpClient>(own.port()));
+    readers.back()->write("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  ASSERT_TRUE(own.metric_reaches("tilelight_http_requests_total{route=\"/v1/scenes/{id}\",status=\"200\"}", 20));
+  EXPECT_TRUE(own.metric_reaches("tilelight_http_unread_bytes", 8 << 20));
+  EXPECT_LT(own.metric("tilelight_http_unread_bytes"), 9 << 20);
+  for (const auto& reader : readers) EXPECT_EQ(reader->read().body, scene);
+  const auto head = HttpClient(own.port()).send("HEAD", path);
+  EXPECT_EQ(head.header("content-length"), std::to_string(scene.size()));
+}
+
 TEST_F(FrontOfService, HeadHasTheHeadersOfGetAndNoBody) {
   HttpClient client(service_->port());
   const auto get = client.send("GET", "/v1/limits"), head = client.send("HEAD", "/v1/limits");
