@@ -12,9 +12,9 @@ int64_t pixels_of(const ImageSpec& image) { return int64_t{image.width} * image.
 
 }  // namespace
 
-Result<SessionPtr> Sessions::open(ScenePtr scene, CompiledPtr compiled, View view) {
+Result<SessionPtr> Sessions::open(CompiledPtr compiled, View view) {
   close_idle();
-  auto session = std::make_shared<Session>(random_id(), pool_, std::move(scene), std::move(compiled), view);
+  auto session = std::make_shared<Session>(random_id(), pool_, std::move(compiled), view);
   {
     const std::lock_guard lock(mutex_);
     if (is_stopping_) return fail("stopping", "the server is stopping");

@@ -23,7 +23,7 @@ class Sessions {
 
   // Opens a session and starts rendering its first view as number 0.
   // Errors: too_many_sessions, too_many_pixels, stopping.
-  Result<SessionPtr> open(ScenePtr scene, CompiledPtr compiled, View view);
+  Result<SessionPtr> open(CompiledPtr compiled, View view);
   // Null if unknown or expired. Counts as use.
   SessionPtr find(const std::string& id);
   // Notes the size of the session's view of this sequence, unless one as new came before: that view will be ignored and
