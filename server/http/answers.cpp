@@ -9,13 +9,36 @@
 
 namespace tilelight::server {
 
-::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take() {
-  if (free_.fetch_sub(1, std::memory_order_relaxed) > 0) return Slot(this);
-  free_.fetch_add(1, std::memory_order_relaxed);
-  return busy("too_many_waiting",
-              "as many requests wait for results as the server allows; ask again, or ask for a job "
-              "(Prefer: respond-async) and come back for it",
-              1);
+::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take(const std::string& client) {
+  constexpr const char* kInstead = "; ask again, or ask for a job (Prefer: respond-async) and come back for it";
+  const std::lock_guard lock(mutex_);
+  if (free_ == 0) {
+    return busy("too_many_waiting", std::string("as many requests wait for results as the server allows") + kInstead,
+                1);
+  }
+  int& held = by_client_[client];
+  if (held >= most_by_client_) {
+    return ::tl::unexpected<Problem>(
+        Problem{429,
+                "too_many_waiting",
+                "as many requests of this client wait for results as one may" + std::string(kInstead),
+                {},
+                {{"Retry-After", "1"}}});
+  }
+  ++held;
+  --free_;
+  return Slot(this, client);
+}
+
+void WaitSlots::give_back(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  ++free_;
+  if (const auto held = by_client_.find(client); --held->second == 0) by_client_.erase(held);
+}
+
+int WaitSlots::free() const {
+  const std::lock_guard lock(mutex_);
+  return free_;
 }
 
 ::tl::unexpected<Problem> client_gone() { return problem(408, "client_gone", "the client closed its connection"); }

@@ -90,7 +90,7 @@ Reply get_scene_image(Services& services, const Request& request) {
     label(response);
     return response;
   }
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   auto lease = services.queue.submit({scene, std::move(*view), *format, Priority::normal, scene->parsed.warnings, 0.0});
   if (!lease) return refused(services, lease.error());

@@ -32,7 +32,7 @@ struct Wish {
 // Waits for the work; the image, or nothing if it takes longer than the client waits.
 ::tl::expected<std::optional<Response>, Problem> wait_for_image(Services& services, const Request& request,
                                                                 RenderWork& work, ImageFormat format) {
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0));
   if (request.gone.stop_requested()) return client_gone();
@@ -169,7 +169,7 @@ Reply get_render(Services& services, const Request& request) {
   // A client that says what it has waits for the next change of that; others for the next change from now.
   const bool is_up_to_date = !request.header("If-None-Match") || has_current(request, etag());
   if (wait_s > 0.0 && work && is_up_to_date) {
-    auto slot = services.waits.take();
+    auto slot = services.waits.take(request.client);
     if (!slot) return ::tl::unexpected(slot.error());
     work->wait_change(record->status.revision, request.gone, after_ms(wait_s * 1000.0));
     record = services.jobs.find(id);
@@ -210,7 +210,7 @@ Reply get_render_pixel(Services& services, const Request& request) {
     return problem(422, "out_of_range",
                    "x and y must name a pixel of the image, sample (0 if absent) one of its samples");
   }
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const auto compiled = wait_compiled(services, request, work->request().scene, Priority::normal);
   if (!compiled) return ::tl::unexpected(compiled.error());

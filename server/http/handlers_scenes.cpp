@@ -13,7 +13,7 @@ namespace {
 // What the view of the scene needs, as a plan document.
 Reply plan_response(Services& services, const Request& request, const ScenePtr& scene, const View& view,
                     const std::vector<SceneWarning>& warnings) {
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const auto compiled = wait_compiled(services, request, scene, Priority::normal);
   if (!compiled) return ::tl::unexpected(compiled.error());

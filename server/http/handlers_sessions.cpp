@@ -18,7 +18,7 @@ constexpr double kFrameWaitS = 25.0;  // under the half minute after which proxi
 Reply post_session(Services& services, const Request& request) {
   auto body = read_render_body(services, request.body, {});
   if (!body) return ::tl::unexpected(body.error());
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const auto compiled = wait_compiled(services, request, body->scene, Priority::interactive);
   if (!compiled) return ::tl::unexpected(compiled.error());
@@ -55,7 +55,7 @@ Reply get_session_frame(Services& services, const Request& request) {
   const auto type = best_offer(request, {"image/png", "image/jpeg"});
   if (!type) return problem(406, "not_acceptable", "a frame can be had as image/png or image/jpeg");
   const ImageFormat format = *image_format_from_media_type(*type);
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const auto frame = session->wait_frame(*after, request.gone, after_ms(wait_seconds(request, kFrameWaitS) * 1000.0));
   if (!frame && session->is_closed()) return problem(410, "session_closed", "the session was closed");

@@ -179,6 +179,20 @@ TEST_F(FrontOfService, WaitersBeyondTheirBudgetAreAnswered503AndOthersAreNotTouc
   EXPECT_EQ(own.get("/v1/limits").status, 200);
 }
 
+TEST(WaitSlots, LeaveAQuarterToOtherClients) {
+  server::WaitSlots slots(4);
+  {
+    std::vector<server::WaitSlots::Slot> held;
+    for (int i = 0; i < 3; ++i) held.push_back(std::move(*slots.take("one")));
+    EXPECT_EQ(slots.take("one").error().status, 429);
+    const auto other = slots.take("two");
+    ASSERT_TRUE(other);
+    EXPECT_EQ(slots.take("three").error().status, 503);
+  }
+  EXPECT_EQ(slots.free(), 4);
+  EXPECT_TRUE(slots.take("one"));
+}
+
 TEST_F(FrontOfService, AClientThatStopsSendingStillGetsItsAnswer) {
   HttpClient client(service_->port());
   client.write("GET /v1/limits HTTP/1.1\r\nHost: localhost\r\n\r\n");
