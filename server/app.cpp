@@ -11,7 +11,6 @@ namespace {
 constexpr double kAnswerMs = 1'000.0;  // for the last answers to reach their clients
 constexpr int kFreeWorkers = 32;       // that never wait for a render, so that other requests are always answered
 constexpr int64_t kSceneStoreBytes = int64_t{256} << 20;
-constexpr size_t kMaxRecords = 10'000;  // of jobs; the oldest ended ones go
 
 bool log_as_json(LogFormat format) {
   return format == LogFormat::json || (format == LogFormat::automatic && !Log::standard_error_is_terminal());
@@ -59,7 +58,8 @@ App::App(Config config, const Clock& clock)
       scenes_(kSceneStoreBytes),
       compiled_(CompiledCache::make(pool_, metrics_, config_.scene_cache_mb << 20)),
       queue_(JobQueue::make(pool_, compiled_, metrics_, log_, clock, {config_.max_queue})),
-      jobs_(Jobs::make(std::make_unique<MemoryJobStore>(kMaxRecords), {config_.max_results, config_.results_mb << 20})),
+      jobs_(Jobs::make(std::make_unique<MemoryJobStore>(size_t{kMaxJobRecords}),
+                       {config_.max_results, config_.results_mb << 20})),
       sessions_(pool_, clock, config_.max_sessions),
       keys_(clock),
       waits_(config_.max_waiting),
@@ -81,6 +81,8 @@ void App::add_gauges() {
                  [this] { return config_.max_waiting - waits_.free(); });
   metrics_.gauge("tilelight_http_connections", "Open connections.",
                  [this] { return static_cast<double>(http_->connection_count()); });
+  metrics_.gauge("tilelight_http_unread_bytes", "Memory of responses that clients have not read yet.",
+                 [this] { return static_cast<double>(http_->unread_bytes()); });
   metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
   metrics_.gauge("process_cpu_seconds_total", "Processor time of the whole process, user and system.", cpu_seconds);
   metrics_.gauge("process_resident_memory_bytes", "Memory of the process that lies in RAM.", resident_bytes);

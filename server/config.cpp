@@ -154,7 +154,7 @@ const std::vector<Setting>& settings() {
       {"max-sessions", "N", "interactive sessions at once [64]", number(&Config::max_sessions, 0, 100'000)},
       {"scene-cache-mb", "MB", "compiled scenes kept for reuse [1024]", number(&Config::scene_cache_mb, 0, 1 << 20)},
       {"results-mb", "MB", "finished images kept [512]", number(&Config::results_mb, 1, 1 << 20)},
-      {"max-results", "N", "finished renders kept [1000]", number(&Config::max_results, 1, 1'000'000)},
+      {"max-results", "N", "finished renders kept [1000]", number(&Config::max_results, 1, kMaxJobRecords)},
       {"max-body-bytes", "N", "largest scene document [16777216]", limit(&Limits::bytes, 1024, int64_t{1} << 30)},
       {"max-pixels", "N", "largest image [16777216]", limit(&Limits::pixels, 1, int64_t{1} << 32)},
       {"max-samples", "N", "most samples a pixel [4096]", limit(&Limits::samples, 1, 1 << 24)},

@@ -15,6 +15,8 @@ namespace tilelight::server {
 
 enum class LogFormat { automatic, text, json };  // automatic: text on a terminal, JSON lines otherwise
 
+constexpr int kMaxJobRecords = 10'000;  // the oldest ended ones go; so no more results can be found again
+
 struct Config {
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one

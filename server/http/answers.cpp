@@ -5,16 +5,54 @@
 
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
+#include "server/http/text.h"
 
 namespace tilelight::server {
 
-::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take() {
-  if (free_.fetch_sub(1, std::memory_order_relaxed) > 0) return Slot(this);
-  free_.fetch_add(1, std::memory_order_relaxed);
-  return busy("too_many_waiting",
-              "as many requests wait for results as the server allows; ask again, or ask for a job "
-              "(Prefer: respond-async) and come back for it",
-              1);
+::tl::expected<WaitSlots::Slot, Problem> WaitSlots::take(const std::string& client) {
+  constexpr const char* kInstead = "; ask again, or ask for a job (Prefer: respond-async) and come back for it";
+  const std::lock_guard lock(mutex_);
+  if (free_ == 0) {
+    return busy("too_many_waiting", std::string("as many requests wait for results as the server allows") + kInstead,
+                1);
+  }
+  int& held = by_client_[client];
+  if (held >= most_by_client_) {
+    return ::tl::unexpected<Problem>(
+        Problem{429,
+                "too_many_waiting",
+                "as many requests of this client wait for results as one may" + std::string(kInstead),
+                {},
+                {{"Retry-After", "1"}}});
+  }
+  ++held;
+  --free_;
+  return Slot(this, client);
+}
+
+void WaitSlots::give_back(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  ++free_;
+  if (const auto held = by_client_.find(client); --held->second == 0) by_client_.erase(held);
+}
+
+int WaitSlots::free() const {
+  const std::lock_guard lock(mutex_);
+  return free_;
+}
+
+::tl::unexpected<Problem> client_gone() { return problem(408, "client_gone", "the client closed its connection"); }
+
+::tl::expected<CompiledPtr, Problem> wait_compiled(Services& services, const Request& request, const ScenePtr& scene,
+                                                   Priority priority) {
+  if (auto compiled = services.compiled.wait(scene, priority, request.gone)) return compiled;
+  if (request.gone.stop_requested()) return client_gone();
+  return problem(500, "internal", "the scene could not be compiled");
+}
+
+std::optional<int64_t> number_param(const Request& request, const std::string& name) {
+  const auto text = request.param(name);
+  return text ? whole_number<int64_t>(*text) : std::nullopt;
 }
 
 double wait_seconds(const Request& request, double default_s) {
@@ -45,10 +83,14 @@ std::string render_info(int spp, std::string_view stop, const RenderReport& repo
   return out;
 }
 
-Response image_response(const RenderWork& work, const EncodedImage& image, ImageFormat format) {
+Response shared_image(const EncodedPtr& image, ImageFormat format) {
+  return {200, {}, std::string(media_type(format)), "", SharedBytes(image, &image->bytes)};
+}
+
+Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFormat format) {
   const WorkStatus status = work.status();
-  Response response{200, {}, std::string(media_type(format)), image.bytes};
-  response.with("ETag", image.etag)
+  Response response = shared_image(image, format);
+  response.with("ETag", image->etag)
       .with("Vary", "Accept")
       .with("Server-Timing", server_timing(status))
       .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));

@@ -16,15 +16,12 @@ namespace tilelight::server {
 namespace {
 
 constexpr uint64_t kListenerId = 0, kWakeId = 1;
-constexpr int kTickMs = 250;              // how often deadlines are looked at
-constexpr size_t kReadBytes = 64 << 10;   // at a time, so that one fast sender does not hold the loop
-constexpr size_t kWriteBytes = 1 << 20;   // likewise for one fast reader of a large image
-constexpr double kLingerMs = 2'000.0;     // for a refused client to read its answer before the reset
-constexpr double kBodyBytesPerMs = 64.0;  // the slowest upload that is waited for, beside head_timeout_ms
-
-double now_ms() { return SystemClock().mono_ms(); }
+constexpr int kTickMs = 250;             // how often deadlines are looked at
+constexpr size_t kReadBytes = 64 << 10;  // at a time, so that one fast sender does not hold the loop
 
 }  // namespace
+
+double Front::now_ms() { return SystemClock().mono_ms(); }
 
 Front::Front(FrontOptions options, Serve serve, Refuse refuse)
     : options_(std::move(options)), serve_(std::move(serve)), refuse_(std::move(refuse)) {}
@@ -90,7 +87,9 @@ void Front::run_loop() {
   std::vector<epoll_event> events(256);
   double next_check_ms = now_ms() + kTickMs;
   for (;;) {
-    const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), kTickMs);
+    // What came before the stop and has not been looked at is answered too: the loop ends at a look that finds nothing.
+    const bool may_end = is_stopping_.load(std::memory_order_acquire) && is_drained();
+    const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), may_end ? 0 : kTickMs);
     for (int i = 0; i < count; ++i) {
       const uint64_t id = events[static_cast<size_t>(i)].data.u64;
       if (id == kListenerId) {
@@ -102,7 +101,9 @@ void Front::run_loop() {
       } else {
         handle_event(id, events[static_cast<size_t>(i)].events);
       }
+      drop_largest_bodies();
     }
+    unread_bytes_.store(unread_.bytes(), std::memory_order_relaxed);
     const double now = now_ms();
     if (now >= next_check_ms) {
       check_deadlines();
@@ -111,7 +112,7 @@ void Front::run_loop() {
     }
     if (is_stopping_.load(std::memory_order_acquire)) {
       set_accepting(false);
-      if (is_drained() || now >= stop_at_ms_.load(std::memory_order_relaxed)) break;
+      if ((may_end && count == 0) || now >= stop_at_ms_.load(std::memory_order_relaxed)) break;
     }
   }
   while (!connections_.empty()) close_connection(connections_.begin()->first);
@@ -217,12 +218,10 @@ void Front::advance(Connection& c) {
 }
 
 void Front::await_body(Connection& c) {
-  if (buffered_bytes_ > options_.max_buffered_bytes) {
-    return refuse(c, Problem{503, "memory", "too many large bodies are arriving at once", {}, {{"Retry-After", "1"}}});
-  }
   if (c.has_continued) return;
   c.has_continued = true;
-  c.deadline_ms = now_ms() + options_.head_timeout_ms + static_cast<double>(c.head->body_bytes) / kBodyBytesPerMs;
+  c.deadline_ms =
+      now_ms() + options_.head_timeout_ms + static_cast<double>(c.head->body_bytes) / options_.min_bytes_per_ms;
   constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
   if (c.head->expects_continue) send(c.fd, kContinue.data(), kContinue.size(), MSG_NOSIGNAL);
 }
@@ -261,58 +260,28 @@ void Front::take_finished() {
     Connection& c = *found->second;
     buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
     c.exchange = nullptr;
-    begin_write(c, std::move(done.served.bytes), done.served.close || c.close_after);
+    done.served.close |= c.close_after;
+    begin_write(c, std::move(done.served));
   }
 }
 
-void Front::refuse(Connection& c, const Problem& problem) { begin_write(c, refuse_(problem, c.client), true); }
-
-void Front::begin_write(Connection& c, std::string bytes, bool close_after) {
-  c.phase = Phase::writing;
-  c.out = std::move(bytes);
-  c.written = 0;
-  c.close_after = close_after;
-  c.deadline_ms = now_ms() + options_.write_timeout_ms;
-  write_some(c);
+void Front::refuse(Connection& c, const Problem& problem) {
+  begin_write(c, {refuse_(problem, c.client), nullptr, true});
 }
 
-void Front::write_some(Connection& c) {
-  const size_t turn_end = c.written + kWriteBytes;
-  while (c.written < c.out.size()) {
-    if (c.written >= turn_end) return watch(c, EPOLLOUT);
-    const ssize_t sent = send(c.fd, c.out.data() + c.written, c.out.size() - c.written, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0 && errno == EAGAIN) return watch(c, EPOLLOUT);
-    if (sent < 0) return close_connection(c.id);
-    c.written += static_cast<size_t>(sent);
-    c.deadline_ms = now_ms() + options_.write_timeout_ms;
+// Over the budget the largest body that is still arriving goes, the oldest of equals: whoever stalls with a large one
+// must not be the reason to refuse the next.
+void Front::drop_largest_bodies() {
+  while (buffered_bytes_ > options_.max_buffered_bytes) {
+    Connection* largest = nullptr;
+    for (const auto& [id, c] : connections_) {
+      if (c->phase != Phase::reading || c->in.size() < kSmallBytes) continue;
+      const auto rank = [](const Connection& it) { return std::pair(it.in.size(), -it.since_ms); };
+      if (!largest || rank(*c) > rank(*largest)) largest = c.get();
+    }
+    if (!largest) return;
+    refuse(*largest, Problem{503, "memory", "too many large bodies are arriving at once", {}, {{"Retry-After", "1"}}});
   }
-  end_write(c);
-}
-
-void Front::end_write(Connection& c) {
-  std::string().swap(c.out);
-  if (c.close_after) {
-    // Closing at once would reset the connection under what the client still sends and lose the answer.
-    shutdown(c.fd, SHUT_WR);
-    buffered_bytes_ -= static_cast<int64_t>(c.in.size());
-    std::string().swap(c.in);
-    c.phase = Phase::closing;
-    c.since_ms = now_ms();
-    c.deadline_ms = c.since_ms + kLingerMs;
-    return watch(c, EPOLLIN);
-  }
-  c.phase = Phase::reading;
-  c.since_ms = now_ms();
-  c.deadline_ms = c.since_ms + (c.in.empty() ? options_.idle_timeout_ms : options_.head_timeout_ms);
-  watch(c, EPOLLIN | EPOLLRDHUP);
-  if (!c.in.empty()) advance(c);  // the next request was sent along
-}
-
-void Front::discard(Connection& c) {
-  char ignored[16 << 10];
-  const ssize_t got = recv(c.fd, ignored, sizeof ignored, 0);
-  if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) close_connection(c.id);
 }
 
 void Front::check_deadlines() {
@@ -344,6 +313,7 @@ void Front::close_connection(uint64_t id) {
   const auto found = connections_.find(id);
   Connection& c = *found->second;
   buffered_bytes_ -= static_cast<int64_t>(c.in.size());
+  if (c.phase == Phase::writing) unread_.remove(c.out);
   if (c.exchange) {
     buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
     c.exchange->gone.request_stop();

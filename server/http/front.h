@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Front: the sockets. One thread with epoll accepts connections, reads complete requests under limits on head, body,
 // time, memory and number, and writes responses; only a complete request takes a worker. So slow clients cost memory
-// that is capped, and never a thread. Pipelined requests are answered one after the other.
+// that is capped, and never a thread: over the cap those go that hold most of it, and not those that come next.
+// Pipelined requests are answered one after the other.
 #pragma once
 
 #include <atomic>
@@ -19,6 +20,7 @@
 
 #include "server/http/head.h"
 #include "server/http/protocol.h"
+#include "server/http/unread.h"
 
 namespace tilelight::server {
 
@@ -37,9 +39,12 @@ struct FrontOptions {
   HeadLimits limits;
   size_t max_connections = 4096;
   int64_t max_buffered_bytes = int64_t{256} << 20;  // of bodies, all connections together
+  int64_t max_unread_bytes = int64_t{512} << 20;    // of responses, likewise; two EXR images of the largest size fit
   double head_timeout_ms = 10'000.0;                // from a request's first byte to the end of its head
   double idle_timeout_ms = 60'000.0;                // between requests
   double write_timeout_ms = 20'000.0;               // without progress
+  double min_bytes_per_ms = 64.0;       // the slowest body, either way, that is waited for, beside the time-outs
+  double brisk_bytes_per_ms = 1'024.0;  // a reader as fast as this keeps its response also where memory is short
 };
 
 class Front {
@@ -58,8 +63,11 @@ class Front {
   // Accepts nothing more, gives the requests in progress grace_ms to be answered, then closes everything.
   void stop(double grace_ms);
   size_t connection_count() const { return connection_count_.load(std::memory_order_relaxed); }
+  int64_t unread_bytes() const { return unread_bytes_.load(std::memory_order_relaxed); }
 
  private:
+  static constexpr size_t kSmallBytes = 16 << 10;  // a head's worth: dropping less makes no room
+
   enum class Phase { reading, serving, writing, closing };  // closing: discards what the client still sends
   struct Connection {
     uint64_t id = 0;
@@ -67,11 +75,13 @@ class Front {
     uint32_t events = 0;  // epoll's interest
     Phase phase = Phase::reading;
     std::string client;
-    std::string in, out;
+    std::string in;
+    Served out;
     size_t written = 0;
     std::optional<Head> head;
     bool close_after = false, has_continued = false;
-    double since_ms = 0.0, deadline_ms = 0.0;
+    double since_ms = 0.0;  // when its request, its response or its idleness began
+    double deadline_ms = 0.0;
     std::shared_ptr<Exchange> exchange;
   };
   struct Finished {
@@ -80,6 +90,7 @@ class Front {
   };
 
   Front(FrontOptions options, Serve serve, Refuse refuse);
+  static double now_ms();
   void run_loop();
   void run_worker();
   void set_accepting(bool on);
@@ -90,13 +101,16 @@ class Front {
   void await_body(Connection& c);
   void hand_over(Connection& c);
   void refuse(Connection& c, const Problem& problem);
-  void begin_write(Connection& c, std::string bytes, bool close_after);
+  // What becomes of a response; front_write.cpp.
+  void begin_write(Connection& c, Served response);
   void write_some(Connection& c);
   void end_write(Connection& c);
   void discard(Connection& c);
+  bool make_unread_room();
   void take_finished();
   void check_deadlines();
   bool make_room();
+  void drop_largest_bodies();
   void watch(Connection& c, uint32_t events);
   void close_connection(uint64_t id);
   bool is_drained() const;
@@ -112,10 +126,12 @@ class Front {
   std::unordered_map<uint64_t, std::unique_ptr<Connection>> connections_;
   uint64_t next_id_ = 16;  // smaller ones name the listener and the wake-up
   int64_t buffered_bytes_ = 0;
+  Unread unread_;
   bool is_accepting_ = true;
 
-  std::atomic<size_t> connection_count_ = 0;  // relaxed: a gauge
-  std::atomic<bool> is_stopping_ = false;     // release by stop(), acquire by the loop
+  std::atomic<size_t> connection_count_ = 0;  // relaxed: gauges
+  std::atomic<int64_t> unread_bytes_ = 0;
+  std::atomic<bool> is_stopping_ = false;  // release by stop(), acquire by the loop
   std::atomic<double> stop_at_ms_ = 0.0;
 
   std::mutex mutex_;  // guards the rest

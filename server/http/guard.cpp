@@ -5,12 +5,10 @@
 
 #include <algorithm>
 
+#include "server/http/text.h"
+
 namespace tilelight::server {
 namespace {
-
-bool same(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
 
 // "localhost:8080" -> "localhost", "[::1]:80" -> "::1".
 std::string host_name(std::string_view host) {
@@ -26,15 +24,13 @@ bool is_address(const std::string& name) {
 // A rebinding attack needs a name that the attacker's DNS answers: addresses and localhost are safe from it.
 bool is_own_host(std::string_view host, const Config& config) {
   const std::string name = host_name(host);
-  if (same(name, "localhost") || is_address(name) || same(name, config.host)) return true;
+  if (is_same_name(name, "localhost") || is_address(name) || is_same_name(name, config.host)) return true;
   return std::any_of(config.allowed_hosts.begin(), config.allowed_hosts.end(),
-                     [&](const std::string& allowed) { return same(name, allowed); });
+                     [&](const std::string& allowed) { return is_same_name(name, allowed); });
 }
 
 bool is_json(std::string_view content_type) {
-  std::string_view type = content_type.substr(0, content_type.find(';'));
-  while (!type.empty() && type.back() == ' ') type.remove_suffix(1);
-  return same(type, "application/json");
+  return is_same_name(trim(content_type.substr(0, content_type.find(';'))), "application/json");
 }
 
 }  // namespace
@@ -50,7 +46,7 @@ bool is_json(std::string_view content_type) {
   if (!changes_state) return {};
   if (const auto origin = request.header("Origin")) {
     const size_t scheme = origin->find("://");
-    const bool is_same = scheme != std::string_view::npos && same(origin->substr(scheme + 3), host);
+    const bool is_same = scheme != std::string_view::npos && is_same_name(origin->substr(scheme + 3), host);
     if (!is_same) return problem(403, "cross_origin", "requests from pages of other sites are not accepted");
   }
   if (request.body.empty()) return {};

@@ -46,6 +46,19 @@ Reply get_version(Services&, const Request&);
 
 // Shared by handlers; answers.cpp.
 
+// How long a request for an image waits for it where the client does not say.
+constexpr double kImageWaitS = 30.0;
+
+// What a request is told whose client has closed its connection: for the log, since nobody reads it.
+::tl::unexpected<Problem> client_gone();
+
+// The compiled scene, waited for. REQUIRES: a slot to wait in. Problems: client_gone, internal.
+::tl::expected<CompiledPtr, Problem> wait_compiled(Services& services, const Request& request, const ScenePtr& scene,
+                                                   Priority priority);
+
+// A whole number from a query. Nothing: it is absent, or anything else.
+std::optional<int64_t> number_param(const Request& request, const std::string& name);
+
 // How long this request waits: Prefer: wait=N within [0, 60], else the default.
 double wait_seconds(const Request& request, double default_s);
 
@@ -53,7 +66,9 @@ double wait_seconds(const Request& request, double default_s);
 ::tl::unexpected<Problem> refused(Services& services, const Error& error);
 
 // An encoded image of the render with its entity tag, timings and figures.
-Response image_response(const RenderWork& work, const EncodedImage& image, ImageFormat format);
+Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFormat format);
+// The same without them.
+Response shared_image(const EncodedPtr& image, ImageFormat format);
 
 // 202 and the job that now holds the work.
 Response accepted_response(const JobRecord& record, const Request& request);

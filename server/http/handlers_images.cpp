@@ -6,8 +6,6 @@
 namespace tilelight::server {
 namespace {
 
-constexpr double kImageWaitS = 30.0;
-
 // The format in which to serve an image whose own format is given.
 ::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, ImageFormat own) {
   std::vector<std::string_view> offers = {media_type(own)};
@@ -26,9 +24,9 @@ Reply partial_image(Services& services, const RenderWork& work, ImageFormat form
                    "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
   const double exposure = work.request().view.image.exposure;
   auto encoded =
-      services.pool.submit(work.request().priority, [&] { return encode_tagged(*image, exposure, format); }).get();
+      services.pool.submit(Priority::interactive, [&] { return encode_tagged(*image, exposure, format); }).get();
   if (!encoded) return problem(500, "internal", "the image could not be encoded");
-  return image_response(work, **encoded, format).with("Cache-Control", "no-store");
+  return image_response(work, *encoded, format).with("Cache-Control", "no-store");
 }
 
 // Known before rendering: the same scene, view and version give the same bytes.
@@ -67,7 +65,7 @@ Reply get_render_image(Services& services, const Request& request) {
   if (has_current(request, (*image)->etag)) {
     return empty_response(304).with("ETag", (*image)->etag).with("Vary", "Accept").with("Cache-Control", kCacheControl);
   }
-  return image_response(*work, **image, *format).with("Cache-Control", kCacheControl);
+  return image_response(*work, *image, *format).with("Cache-Control", kCacheControl);
 }
 
 Reply get_scene_image(Services& services, const Request& request) {
@@ -84,27 +82,30 @@ Reply get_scene_image(Services& services, const Request& request) {
   if (!format) return ::tl::unexpected(format.error());
   const std::string etag = scene_image_etag(scene, *view, *format);
   const auto label = [&](Response& response) {
-    response.with("ETag", etag).with("Cache-Control", "private, max-age=31536000").with("Vary", "Accept");
+    // Not to be used unasked: another version of this program may render it otherwise, under another tag.
+    response.with("ETag", etag).with("Cache-Control", "private, no-cache").with("Vary", "Accept");
   };
   if (has_current(request, etag)) {
     Response response = empty_response(304);
     label(response);
     return response;
   }
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   auto lease = services.queue.submit({scene, std::move(*view), *format, Priority::normal, scene->parsed.warnings, 0.0});
   if (!lease) return refused(services, lease.error());
   RenderWork& work = *lease->work();
   if (!work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0))) {
-    if (request.gone.stop_requested()) return problem(408, "client_gone", "the client closed its connection");
-    return accepted_response(services.jobs.keep(std::move(*lease), request.client, *format), request);
+    if (request.gone.stop_requested()) return client_gone();
+    const auto record = services.jobs.keep(std::move(*lease), request.client, *format);
+    if (!record) return refused(services, record.error());
+    return accepted_response(*record, request);
   }
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(*format, services.pool);
   if (!image) return problem(500, "internal", "the image could not be encoded");
   const WorkStatus status = work.status();
-  Response response{200, {}, std::string(media_type(*format)), (*image)->bytes};
+  Response response = shared_image(*image, *format);
   label(response);
   response.with("Server-Timing", server_timing(status))
       .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-
 #include "renderer/base/hash.h"
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
+#include "server/http/text.h"
 
 namespace tilelight::server {
 namespace {
-
-constexpr double kImageWaitS = 30.0;
 
 ::tl::unexpected<Problem> no_such_render() {
   return problem(404, "no_such_render",
@@ -35,15 +32,15 @@ struct Wish {
 // Waits for the work; the image, or nothing if it takes longer than the client waits.
 ::tl::expected<std::optional<Response>, Problem> wait_for_image(Services& services, const Request& request,
                                                                 RenderWork& work, ImageFormat format) {
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0));
-  if (request.gone.stop_requested()) return problem(408, "client_gone", "the client closed its connection");
+  if (request.gone.stop_requested()) return client_gone();
   if (!has_ended) return std::optional<Response>();
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(format, services.pool);
   if (!image) return problem(410, image.error().code, image.error().detail);
-  Response response = image_response(work, **image, format);
+  Response response = image_response(work, *image, format);
   response.with("Cache-Control", "no-store");
   return std::optional<Response>(std::move(response));
 }
@@ -55,15 +52,13 @@ struct Wish {
   return key;
 }
 
-// Answers a retry with the job that its first try led to, if there is one.
+// Answers a retry with the job that its first try led to, if it is still there.
 ::tl::expected<std::optional<Response>, Problem> answer_retry(Services& services, const Request& request,
-                                                              const std::string& key, const Wish& wish) {
-  if (key.empty()) return std::optional<Response>();
-  const auto seen = services.keys.claim(request.client, key, sha256_hex(request.body));
-  if (seen.is_other_body) {
+                                                              const IdempotencyKeys::Claim& claim, const Wish& wish) {
+  if (claim.is_other_body) {
     return problem(422, "idempotency_key_reused", "this Idempotency-Key came with another body before");
   }
-  const auto record = seen.job_id.empty() ? std::nullopt : services.jobs.find(seen.job_id);
+  const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
   if (!record) return std::optional<Response>();
   const WorkPtr work = services.jobs.work(record->id);
   if (wish.image && work) {
@@ -73,13 +68,43 @@ struct Wish {
   return std::optional<Response>(accepted_response(*services.jobs.find(record->id), request));
 }
 
-std::optional<int64_t> number_param(const Request& request, const std::string& name) {
-  const auto text = request.param(name);
-  if (!text) return std::nullopt;
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size()) return std::nullopt;
-  return value;
+// What a POST of a render wants, read from its headers. The claim: of the request's idempotency key, if it has one.
+struct Order {
+  Wish wish;
+  std::optional<IdempotencyKeys::Claim> claim;
+};
+
+// The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
+Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
+                           ImageFormat format) {
+  auto record = services.jobs.keep(std::move(lease), request.client, format);
+  if (!record || !order.claim) return record;
+  const std::string winner = services.keys.bind(*order.claim, record->id);
+  if (winner == record->id) return record;
+  auto first = services.jobs.find(winner);
+  if (!first) return record;  // deleted since
+  services.jobs.forget(record->id);
+  return std::move(*first);
+}
+
+Reply submit_render(Services& services, const Request& request, const Order& order) {
+  auto body = read_render_body(services, request.body, {"format", "priority"});
+  if (!body) return ::tl::unexpected(body.error());
+  const std::optional<ImageFormat>& image_format = order.wish.image;
+  // "format" says how a job keeps its image; an image that is waited for is what Accept says.
+  const ImageFormat format = image_format.value_or(body->format.value_or(ImageFormat::png));
+  const Priority priority = body->priority.value_or(image_format ? Priority::normal : Priority::batch);
+  auto lease = services.queue.submit(
+      {body->scene, std::move(body->view), format, priority, std::move(body->warnings), body->parse_ms});
+  if (!lease) return refused(services, lease.error());
+  if (image_format) {
+    auto image = wait_for_image(services, request, *lease->work(), format);
+    if (!image) return ::tl::unexpected(image.error());
+    if (*image) return std::move(**image);
+  }
+  const auto record = keep_job(services, std::move(*lease), request, order, format);
+  if (!record) return refused(services, record.error());
+  return accepted_response(*record, request);
 }
 
 }  // namespace
@@ -89,32 +114,16 @@ Reply post_render(Services& services, const Request& request) {
   if (!wish) return ::tl::unexpected(wish.error());
   const auto key = read_idempotency_key(request);
   if (!key) return ::tl::unexpected(key.error());
-  auto retried = answer_retry(services, request, *key, *wish);
-  if (!retried) return ::tl::unexpected(retried.error());
-  if (*retried) return std::move(**retried);
-
-  auto body = read_render_body(services, request.body, {"format", "priority"});
-  if (!body) return ::tl::unexpected(body.error());
-  // "format" says how a job keeps its image; an image that is waited for is what Accept says.
-  const ImageFormat format = wish->image.value_or(body->format.value_or(ImageFormat::png));
-  const Priority priority = body->priority.value_or(wish->image ? Priority::normal : Priority::batch);
-  auto lease = services.queue.submit(
-      {body->scene, std::move(body->view), format, priority, std::move(body->warnings), body->parse_ms});
-  if (!lease) return refused(services, lease.error());
-  if (wish->image) {
-    auto image = wait_for_image(services, request, *lease->work(), format);
-    if (!image) return ::tl::unexpected(image.error());
-    if (*image) return std::move(**image);
-  }
-  JobRecord record = services.jobs.keep(std::move(*lease), request.client, format);
+  Order order{*wish, std::nullopt};
   if (!key->empty()) {
-    const std::string winner = services.keys.bind(request.client, *key, record.id);
-    if (winner != record.id) {  // a retry that came meanwhile made its job first
-      services.jobs.forget(record.id);
-      if (auto first = services.jobs.find(winner)) record = std::move(*first);
-    }
+    order.claim = services.keys.claim(request.client, *key, sha256_hex(request.body));
+    auto retried = answer_retry(services, request, *order.claim, *wish);
+    if (!retried) return ::tl::unexpected(retried.error());
+    if (*retried) return std::move(**retried);
   }
-  return accepted_response(record, request);
+  Reply reply = submit_render(services, request, order);
+  if (!reply && order.claim) services.keys.release(*order.claim);
+  return reply;
 }
 
 Reply list_renders(Services& services, const Request& request) {
@@ -130,10 +139,9 @@ Reply list_renders(Services& services, const Request& request) {
     filter.limit = static_cast<int>(*limit);
   }
   if (const auto after = request.param("after")) {
-    const auto [end, error] = std::from_chars(after->data(), after->data() + after->size(), filter.before, 16);
-    if (error != std::errc() || end != after->data() + after->size()) {
-      return problem(400, "bad_query", "after must be a cursor from a Link header");
-    }
+    const auto cursor = whole_number<uint64_t>(*after, 16);
+    if (!cursor) return problem(400, "bad_query", "after must be a cursor from a Link header");
+    filter.before = *cursor;
   }
   const int limit = filter.limit++;  // one more tells whether there is a next page
   auto records = services.jobs.list(filter);
@@ -161,7 +169,7 @@ Reply get_render(Services& services, const Request& request) {
   // A client that says what it has waits for the next change of that; others for the next change from now.
   const bool is_up_to_date = !request.header("If-None-Match") || has_current(request, etag());
   if (wait_s > 0.0 && work && is_up_to_date) {
-    auto slot = services.waits.take();
+    auto slot = services.waits.take(request.client);
     if (!slot) return ::tl::unexpected(slot.error());
     work->wait_change(record->status.revision, request.gone, after_ms(wait_s * 1000.0));
     record = services.jobs.find(id);
@@ -202,11 +210,12 @@ Reply get_render_pixel(Services& services, const Request& request) {
     return problem(422, "out_of_range",
                    "x and y must name a pixel of the image, sample (0 if absent) one of its samples");
   }
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const CompiledPtr compiled = services.compiled.wait(work->request().scene, Priority::normal, request.gone);
-  if (!compiled) return problem(500, "internal", "the scene could not be compiled");
-  auto json = explain_pixel_json(*compiled, plan_view(*compiled, work->request().view), static_cast<int>(*x),
+  const auto compiled = wait_compiled(services, request, work->request().scene, Priority::normal);
+  if (!compiled) return ::tl::unexpected(compiled.error());
+  const CompiledScene& scene = **compiled;
+  auto json = explain_pixel_json(scene, plan_view(scene, work->request().view), static_cast<int>(*x),
                                  static_cast<int>(*y), static_cast<int>(*sample));
   if (!json) return problem(422, json.error().code, json.error().detail);
   return json_response(200, std::move(*json)).with("Cache-Control", "no-cache");

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <future>
-
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
@@ -15,15 +13,15 @@ namespace {
 // What the view of the scene needs, as a plan document.
 Reply plan_response(Services& services, const Request& request, const ScenePtr& scene, const View& view,
                     const std::vector<SceneWarning>& warnings) {
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const CompiledPtr compiled = services.compiled.wait(scene, Priority::normal, request.gone);
-  if (!compiled) return problem(500, "internal", "the scene could not be compiled");
-  const ViewPlan plan = plan_view(*compiled, view);
-  std::promise<CostPrediction> cost;  // found on the pool, as all tracing is
-  services.pool.post(Priority::normal,
-                     [&] { cost.set_value(predict_cost(*compiled, plan, services.pool.thread_count())); });
-  return json_response(200, plan_document(scene->parsed.scene_id, warnings, plan, cost.get_future().get()))
+  const auto compiled = wait_compiled(services, request, scene, Priority::normal);
+  if (!compiled) return ::tl::unexpected(compiled.error());
+  const ViewPlan plan = plan_view(**compiled, view);
+  // On the pool, as all tracing is; what it throws comes back here.
+  const auto predict = [&] { return predict_cost(**compiled, plan, services.pool.thread_count()); };
+  const CostPrediction cost = services.pool.submit(Priority::normal, predict).get();
+  return json_response(200, plan_document(scene->parsed.scene_id, warnings, plan, cost))
       .with("Cache-Control", "no-cache");
 }
 
@@ -43,7 +41,8 @@ Reply get_scene(Services& services, const Request& request) {
   if (!scene) return no_such_scene();
   // The id is the hash of what the document means, so two spellings share it: a weak tag.
   const std::string etag = "W/\"" + scene->parsed.scene_id.substr(0, 32) + "\"";
-  Response response = has_current(request, etag) ? empty_response(304) : json_response(200, scene->text);
+  Response response = has_current(request, etag) ? empty_response(304) : json_response(200, "");
+  if (response.status == 200) response.shared = SharedBytes(scene, &scene->text);
   return response.with("ETag", etag).with("Cache-Control", "private, max-age=31536000");
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
@@ -20,14 +18,14 @@ constexpr double kFrameWaitS = 25.0;  // under the half minute after which proxi
 Reply post_session(Services& services, const Request& request) {
   auto body = read_render_body(services, request.body, {});
   if (!body) return ::tl::unexpected(body.error());
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const CompiledPtr compiled = services.compiled.wait(body->scene, Priority::interactive, request.gone);
-  if (!compiled) return problem(500, "internal", "the scene could not be compiled");
-  const ViewPlan plan = plan_view(*compiled, body->view);
+  const auto compiled = wait_compiled(services, request, body->scene, Priority::interactive);
+  if (!compiled) return ::tl::unexpected(compiled.error());
+  const ViewPlan plan = plan_view(**compiled, body->view);
   // Later views are merged over what the client is told here, also where the scene left the camera to be found.
   body->view.camera = plan.camera;
-  const auto session = services.sessions.open(body->scene, compiled, body->view);
+  const auto session = services.sessions.open(*compiled, body->view);
   if (!session) return busy(session.error().code, session.error().detail, 5);
   const std::string& id = (*session)->id();
   return json_response(201, session_document(id, body->scene->parsed.scene_id, body->warnings, plan))
@@ -40,7 +38,7 @@ Reply put_session_view(Services& services, const Request& request) {
   if (!session) return no_such_session();
   auto body = read_view_body(request.body, session->base_view(), services.config.limits);
   if (!body) return ::tl::unexpected(body.error());
-  if (!services.sessions.reserve(session->id(), body->view.image)) {
+  if (!services.sessions.reserve(session->id(), body->seq, body->view.image)) {
     return busy("too_many_pixels", "the views of all sessions together have as many pixels as they may", 5);
   }
   session->set_view(body->seq, std::move(body->view), body->is_moving);
@@ -50,20 +48,23 @@ Reply put_session_view(Services& services, const Request& request) {
 Reply get_session_frame(Services& services, const Request& request) {
   const SessionPtr session = services.sessions.find(request.args[0]);
   if (!session) return no_such_session();
-  const std::string_view after_text = request.param("after").value_or("0");
-  int64_t after = 0;
-  const auto [end, error] = std::from_chars(after_text.data(), after_text.data() + after_text.size(), after);
-  if (error != std::errc() || end != after_text.data() + after_text.size() || after < 0) {
+  const auto after = request.param("after") ? number_param(request, "after") : std::optional<int64_t>(0);
+  if (!after || *after < 0) {
     return problem(400, "bad_query", "after must be the number of the last frame received, or 0");
   }
   const auto type = best_offer(request, {"image/png", "image/jpeg"});
   if (!type) return problem(406, "not_acceptable", "a frame can be had as image/png or image/jpeg");
   const ImageFormat format = *image_format_from_media_type(*type);
-  auto slot = services.waits.take();
+  auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const auto frame = session->wait_frame(after, request.gone, after_ms(wait_seconds(request, kFrameWaitS) * 1000.0));
+  const auto frame = session->wait_frame(*after, request.gone, after_ms(wait_seconds(request, kFrameWaitS) * 1000.0));
   if (!frame && session->is_closed()) return problem(410, "session_closed", "the session was closed");
   if (!frame) return empty_response(204).with("Cache-Control", "no-store");
+  if (!frame->image) {
+    services.log.write(LogLevel::error, "render_failed",
+                       {{"id", request.id}, {"session", session->id()}, {"cause", frame->error}});
+    return problem(500, "render_failed", "the render of this view failed inside the server; another view may do");
+  }
   const auto start = Steady::now();
   auto encoded =
       services.pool.submit(Priority::interactive, [&] { return encode_tagged(*frame->image, frame->exposure, format); })
@@ -72,8 +73,8 @@ Reply get_session_frame(Services& services, const Request& request) {
   services.metrics.add("tilelight_session_frames_total", "");
   char timing[96];
   std::snprintf(timing, sizeof timing, "render;dur=%.2f, encode;dur=%.2f", frame->progress.elapsed_ms, ms_since(start));
-  Response response{200, {}, std::string(*type), (*encoded)->bytes};
-  return response.with("Frame-Seq", std::to_string(frame->seq))
+  return shared_image(*encoded, format)
+      .with("Frame-Seq", std::to_string(frame->seq))
       .with("View-Seq", std::to_string(frame->view_seq))
       .with("Frame-Final", frame->is_final ? "?1" : "?0")
       .with("Render-Info", render_info(frame->progress.spp, frame->stop, {}))

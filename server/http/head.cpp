@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "server/http/text.h"
+
 namespace tilelight::server {
 namespace {
 
@@ -14,20 +16,10 @@ constexpr std::string_view kMethods[] = {"GET", "HEAD", "POST", "PUT", "DELETE",
 constexpr std::string_view kDropped[] = {"range",       "accept-encoding", "expect",    "remote_addr",
                                          "remote_port", "local_addr",      "local_port"};
 
-bool same(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
-
 bool is_token(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) || std::string_view("!#$%&'*+-.^_`|~").find(static_cast<char>(c)) != std::string_view::npos;
   });
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 ::tl::unexpected<Problem> bad(std::string detail) { return problem(400, "bad_request", std::move(detail)); }
@@ -64,6 +56,10 @@ class FieldReader {
     if (++count_ > limits_.fields) {
       return problem(431, "too_many_fields", "a head may have " + std::to_string(limits_.fields) + " fields");
     }
+    if (line.size() > limits_.field_bytes) {
+      return problem(431, "field_too_large",
+                     "a header line may take " + std::to_string(limits_.field_bytes) + " bytes");
+    }
     const size_t colon = line.find(':');
     if (colon == std::string_view::npos || !is_token(line.substr(0, colon))) {
       return bad("a header line is not 'name: value'");
@@ -73,7 +69,7 @@ class FieldReader {
         std::all_of(value.begin(), value.end(), [](unsigned char c) { return c == '\t' || (c >= 0x20 && c != 0x7f); });
     if (!clean) return bad("the header " + std::string(name) + " holds a control character");
     const bool is_dropped = std::any_of(std::begin(kDropped), std::end(kDropped),
-                                        [&](std::string_view dropped) { return same(name, dropped); });
+                                        [&](std::string_view dropped) { return is_same_name(name, dropped); });
     if (!is_dropped) head_.text.append(name).append(": ").append(value).append("\r\n");
     return note(name, value);
   }
@@ -85,19 +81,20 @@ class FieldReader {
 
  private:
   ::tl::expected<void, Problem> note(std::string_view name, std::string_view value) {
-    if (same(name, "host")) ++hosts_;
-    if (same(name, "transfer-encoding")) {
+    if (is_same_name(name, "host")) ++hosts_;
+    if (is_same_name(name, "transfer-encoding")) {
       return problem(411, "length_required", "send Content-Length; chunked bodies are not accepted");
     }
-    if (same(name, "content-encoding") && !same(value, "identity")) {
+    if (is_same_name(name, "content-encoding") && !is_same_name(value, "identity")) {
       return problem(415, "content_encoding",
                      "send the body unencoded; Content-Encoding " + std::string(value) + " is not accepted");
     }
-    if (same(name, "expect")) {
-      if (!same(value, "100-continue")) return problem(417, "expectation", "only Expect: 100-continue is understood");
+    if (is_same_name(name, "expect")) {
+      if (!is_same_name(value, "100-continue"))
+        return problem(417, "expectation", "only Expect: 100-continue is understood");
       head_.expects_continue = true;
     }
-    if (same(name, "content-length")) return note_length(value);
+    if (is_same_name(name, "content-length")) return note_length(value);
     return {};
   }
 

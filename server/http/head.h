@@ -16,6 +16,7 @@ namespace tilelight::server {
 struct HeadLimits {
   size_t head_bytes = 16 << 10;
   size_t target_bytes = 4 << 10;  // path and query
+  size_t field_bytes = 8000;      // a line of name and value; the HTTP library refuses 8,192 without saying why
   int fields = 100;
   int64_t body_bytes = 16 << 20;
 };

@@ -6,22 +6,26 @@
 namespace tilelight::server {
 namespace {
 
-Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) {
-  return serve_head(exchange.head, false, [&](Request&& request) {
-    request.body = exchange.body;
-    request.client = exchange.client;
-    request.id = random_hex(8);
-    request.gone = exchange.gone.get_token();
-    return dispatch(services, routes, std::move(request));
-  });
-}
-
 std::string refuse(Services& services, const Problem& problem, const std::string& client) {
   const std::string id = random_hex(8);
   services.metrics.add("tilelight_http_refused_total", "status=\"" + std::to_string(problem.status) + "\"");
   services.log.write(LogLevel::info, "refused",
                      {{"id", id}, {"client", client}, {"status", int64_t{problem.status}}, {"code", problem.code}});
   return closing_response(problem_response(problem, id).with("Request-Id", id));
+}
+
+Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) {
+  auto served = serve_head(exchange.head, false, [&](Request&& request) {
+    request.body = exchange.body;
+    request.client = exchange.client;
+    request.id = random_hex(8);
+    request.gone = exchange.gone.get_token();
+    return dispatch(services, routes, std::move(request));
+  });
+  if (served) return std::move(*served);
+  // The front has checked the head, so this is rare; it is logged and counted like the front's own refusals.
+  return {refuse(services, {400, "bad_request", "the request was not understood", {}, {}}, exchange.client), nullptr,
+          true};
 }
 
 }  // namespace

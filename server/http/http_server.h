@@ -19,6 +19,7 @@ class HttpServer {
   void stop(double grace_ms) { front_->stop(grace_ms); }
   int port() const { return front_->port(); }
   size_t connection_count() const { return front_->connection_count(); }
+  int64_t unread_bytes() const { return front_->unread_bytes(); }
 
  private:
   std::unique_ptr<Front> front_;

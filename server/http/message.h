@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -49,11 +50,17 @@ struct Request {
   }
 };
 
+// Bytes that others hold too, and that nobody changes.
+using SharedBytes = std::shared_ptr<const std::string>;
+
 struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string content_type;
   std::string body;
+  SharedBytes shared = nullptr;  // in place of `body`: an image that many clients read slowly is in memory once
+
+  size_t body_bytes() const { return shared ? shared->size() : body.size(); }
 
   Response& with(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));

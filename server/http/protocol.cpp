@@ -43,6 +43,7 @@ Request from_httplib(const httplib::Request& in) {
   return request;
 }
 
+// The body, unless it is shared: that one goes around httplib, which would copy it.
 void to_httplib(Response&& from, bool is_head, httplib::Response& out) {
   out.status = from.status;
   for (const auto& [name, value] : from.headers) out.set_header(name, value);
@@ -58,46 +59,54 @@ class OneRequest final : private httplib::Server {
   explicit OneRequest(const std::function<Response(Request&&)>& handle) {
     set_keep_alive_max_count(1'000'000);
     set_keep_alive_timeout(60);
-    set_pre_routing_handler([&handle](const httplib::Request& in, httplib::Response& out) {
-      to_httplib(handle(from_httplib(in)), in.method == "HEAD", out);
+    set_pre_routing_handler([this, &handle](const httplib::Request& in, httplib::Response& out) {
+      Response response = handle(from_httplib(in));
+      was_understood_ = true;
+      is_head_ = in.method == "HEAD";
+      shared_ = response.shared;
+      to_httplib(std::move(response), is_head_, out);
       return HandlerResponse::Handled;
     });
-    // The front has checked the head; what httplib still refuses gets a problem document as well.
-    set_error_handler(HandlerWithResponse([](const httplib::Request&, httplib::Response& out) {
-      if (!out.body.empty() || out.has_header("Content-Type")) return HandlerResponse::Unhandled;
-      to_httplib(problem_response({400, "bad_request", "the request was not understood", {}, {}}, ""), false, out);
-      return HandlerResponse::Handled;
-    }));
   }
 
-  Served run(const std::string& head, bool close_after) {
+  std::optional<Served> run(const std::string& head, bool close_after) {
     Served served;
     MemoryStream stream(head, served.bytes);
     served.close = close_after;
     const bool alive = process_request(stream, close_after, served.close, nullptr);
+    if (!was_understood_) return std::nullopt;
     served.close |= close_after || !alive;
+    correct_length(served.bytes);
+    if (!is_head_) served.body = std::move(shared_);
     return served;
   }
-};
 
-// httplib writes a Content-Length of 0 where RFC 9110 (8.6) wants none: 204, and 304 whose length would be the 200's.
-void drop_false_length(std::string& bytes) {
-  constexpr std::string_view kFalse = "Content-Length: 0\r\n";
-  const bool has_no_body = bytes.rfind("HTTP/1.1 204", 0) == 0 || bytes.rfind("HTTP/1.1 304", 0) == 0;
-  if (!has_no_body) return;
-  if (const size_t at = bytes.find(kFalse); at != std::string::npos) bytes.erase(at, kFalse.size());
-}
+ private:
+  // httplib writes a Content-Length of 0 where the body is shared, and where RFC 9110 (8.6) wants none: 204, and 304
+  // whose length would be the 200's.
+  void correct_length(std::string& bytes) const {
+    constexpr std::string_view kFalse = "Content-Length: 0\r\n";
+    const bool has_no_body = bytes.rfind("HTTP/1.1 204", 0) == 0 || bytes.rfind("HTTP/1.1 304", 0) == 0;
+    if (!shared_ && !has_no_body) return;
+    const size_t at = bytes.find("\r\n" + std::string(kFalse));
+    if (at == std::string::npos) return;
+    bytes.replace(at + 2, kFalse.size(),
+                  shared_ ? "Content-Length: " + std::to_string(shared_->size()) + "\r\n" : std::string());
+  }
+
+  bool was_understood_ = false, is_head_ = false;
+  SharedBytes shared_;
+};
 
 }  // namespace
 
-Served serve_head(const std::string& head, bool close_after, const std::function<Response(Request&&)>& handle) {
-  Served served = OneRequest(handle).run(head, close_after);
-  drop_false_length(served.bytes);
-  return served;
+std::optional<Served> serve_head(const std::string& head, bool close_after,
+                                 const std::function<Response(Request&&)>& handle) {
+  return OneRequest(handle).run(head, close_after);
 }
 
 std::string closing_response(const Response& response) {
-  return serve_head("GET / HTTP/1.1\r\nConnection: close\r\n\r\n", true, [&](Request&&) { return response; }).bytes;
+  return serve_head("GET / HTTP/1.1\r\nConnection: close\r\n\r\n", true, [&](Request&&) { return response; })->bytes;
 }
 
 }  // namespace tilelight::server

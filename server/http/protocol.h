@@ -10,13 +10,19 @@
 
 namespace tilelight::server {
 
+// A response on its way to the client.
 struct Served {
-  std::string bytes;   // of the response
-  bool close = false;  // the connection, after it
+  std::string bytes;           // the head, and the body unless it is shared
+  SharedBytes body = nullptr;  // follows the bytes
+  bool close = false;          // the connection, after it
+
+  size_t size() const { return bytes.size() + (body ? body->size() : 0); }
 };
 
 // Parses the head (complete, with its empty line), calls `handle` and writes its response. `handle` must not throw.
-Served serve_head(const std::string& head, bool close_after, const std::function<Response(Request&&)>& handle);
+// Nothing if the library did not understand the head, and `handle` was not called.
+std::optional<Served> serve_head(const std::string& head, bool close_after,
+                                 const std::function<Response(Request&&)>& handle);
 
 // A response to a request that was not understood; the connection is to be closed.
 std::string closing_response(const Response& response);

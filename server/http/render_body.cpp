@@ -2,10 +2,10 @@
 #include "server/http/render_body.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "server/http/json_members.h"
+#include "server/http/text.h"
 
 namespace tilelight::server {
 namespace {
@@ -147,10 +147,11 @@ std::optional<std::string> query_numbers(std::string_view text, bool is_vector) 
   return is_vector ? "[" + std::string(text) + "]" : std::string(text);
 }
 
-// Runs parse() here or, for a large body, on the pool.
+// Runs parse() here or, for a large body, on the pool: before all rendering, since a worker waits for it that holds no
+// slot to wait in.
 template <class Parse>
 auto parse_where_it_fits(Services& services, std::string_view body, Parse parse) {
-  return body.size() <= kParseHereBytes ? parse() : services.pool.submit(Priority::normal, parse).get();
+  return body.size() <= kParseHereBytes ? parse() : services.pool.submit(Priority::interactive, parse).get();
 }
 
 }  // namespace
@@ -177,9 +178,8 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   errors.check_keys(*members, {"seq", "camera", "image", "render", "moving"});
   ViewBody out;
   const JsonMember* seq = find_member(*members, "seq");
-  const std::string_view digits = seq ? seq->value : std::string_view();
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out.seq);
-  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || out.seq < 1) {
+  out.seq = (seq ? whole_number<int64_t>(seq->value) : std::nullopt).value_or(0);
+  if (out.seq < 1) {
     errors.add("seq", seq ? "wrong_type" : "missing_key", "'seq' must be a whole number from 1, larger with each view");
   }
   if (const JsonMember* moving = find_member(*members, "moving")) {

@@ -118,7 +118,7 @@ Response dispatch(Services& services, const std::vector<Route>& routes, Request&
                       {"method", method},
                       {"path", request.path},
                       {"status", int64_t{response.status}},
-                      {"bytes", static_cast<int64_t>(response.body.size())},
+                      {"bytes", static_cast<int64_t>(response.body_bytes())},
                       {"ms", ms}});
   return response;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <map>
+#include <mutex>
 
 #include "server/config.h"
 #include "server/http/message.h"
@@ -13,29 +15,35 @@
 namespace tilelight::server {
 
 // The budget of workers that may wait for something else than the processor, so that waiting never takes the workers
-// that answer others.
+// that answer others. One client may hold three quarters of it, so that the rest stays for others. Any thread.
 class WaitSlots {
  public:
-  explicit WaitSlots(int count) : free_(count) {}
+  explicit WaitSlots(int count) : most_by_client_(count - count / 4), free_(count) {}
 
   class Slot {
    public:
-    explicit Slot(WaitSlots* owner) : owner_(owner) {}
-    Slot(Slot&& other) noexcept : owner_(std::exchange(other.owner_, nullptr)) {}
+    Slot(WaitSlots* owner, std::string client) : owner_(owner), client_(std::move(client)) {}
+    Slot(Slot&& other) noexcept : owner_(std::exchange(other.owner_, nullptr)), client_(std::move(other.client_)) {}
     Slot& operator=(Slot&&) = delete;
     ~Slot() {
-      if (owner_) owner_->free_.fetch_add(1, std::memory_order_relaxed);
+      if (owner_) owner_->give_back(client_);
     }
 
    private:
     WaitSlots* owner_;
+    std::string client_;
   };
-  // A slot, or 503.
-  ::tl::expected<Slot, Problem> take();
-  int free() const { return free_.load(std::memory_order_relaxed); }
+  // A slot, or 429 where this client has its share, or 503 where there is none left.
+  ::tl::expected<Slot, Problem> take(const std::string& client);
+  int free() const;
 
  private:
-  std::atomic<int> free_;  // relaxed: a count and nothing else
+  void give_back(const std::string& client);
+
+  const int most_by_client_;
+  mutable std::mutex mutex_;  // guards the rest
+  int free_;
+  std::map<std::string, int> by_client_;  // of who holds any
 };
 
 struct Services {

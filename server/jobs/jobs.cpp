@@ -11,7 +11,7 @@ std::shared_ptr<Jobs> Jobs::make(std::unique_ptr<JobStore> store, Options option
   return std::shared_ptr<Jobs>(new Jobs(std::move(store), options));
 }
 
-JobRecord Jobs::keep(WorkLease lease, const std::string& client, ImageFormat format) {
+Result<JobRecord> Jobs::keep(WorkLease lease, const std::string& client, ImageFormat format) {
   const WorkPtr work = lease.work();
   const RenderRequest& request = work->request();
   JobRecord record;
@@ -23,7 +23,7 @@ JobRecord Jobs::keep(WorkLease lease, const std::string& client, ImageFormat for
   record.format = format;  // not request.format: identical renders share work whatever their formats
   record.warnings = request.warnings;
   record.status = work->status();
-  store_->put(record);
+  if (!store_->put(record)) return fail("store_refused", "the record of the render could not be kept");
   {
     const std::lock_guard lock(mutex_);
     held_[record.id] = std::move(lease);

@@ -25,8 +25,8 @@ class Jobs : public std::enable_shared_from_this<Jobs> {
   static std::shared_ptr<Jobs> make(std::unique_ptr<JobStore> store, Options options);
 
   // Makes a job of the work, whose image is served in this format unless a client accepts another one only; the record
-  // is committed when this returns.
-  JobRecord keep(WorkLease lease, const std::string& client, ImageFormat format);
+  // is committed when this returns. Errors: store_refused; the work then lost this holder.
+  Result<JobRecord> keep(WorkLease lease, const std::string& client, ImageFormat format);
 
   // The record with its progress of this moment.
   std::optional<JobRecord> find(const std::string& id) const;

@@ -74,7 +74,8 @@ Result<EncodedPtr> RenderWork::encode(ImageFormat format) {
 Result<EncodedPtr> RenderWork::encoded(ImageFormat format, TilePool& pool) {
   auto [future, mine] = claim(format);
   if (mine) {
-    pool.post(request_.priority, [self = shared_from_this(), format, promise = mine] {
+    // Not at the render's priority: somebody waits for it.
+    pool.post(Priority::interactive, [self = shared_from_this(), format, promise = mine] {
       try {
         promise->set_value(self->encode(format));
       } catch (...) {

@@ -24,7 +24,13 @@ bool Session::set_view(int64_t seq, View view, bool is_moving) {
   options.on_pass = [weak = weak_from_this(), seq] {
     if (const auto self = weak.lock()) self->note_pass(seq);
   };
-  auto render = Render::start(pool_, Priority::interactive, compiled_, plan_view(*compiled_, view), std::move(options));
+  std::shared_ptr<Render> render;
+  try {
+    render = start_render(view, std::move(options));
+  } catch (const std::exception& bug) {
+    note_failure(seq, bug.what());
+    return true;
+  }
   bool is_newest = false;
   {
     const std::lock_guard lock(mutex_);
@@ -47,16 +53,29 @@ void Session::note_pass(int64_t view_seq) {
     render = render_;
   }
   RenderProgress progress = render->progress();
+  if (progress.state == RenderState::failed) return note_failure(view_seq, std::move(progress.error));
   const bool is_final = progress.state == RenderState::done;
-  if (progress.spp == 0 || progress.state == RenderState::cancelled || progress.state == RenderState::failed) return;
+  if (progress.spp == 0 || progress.state == RenderState::cancelled) return;
   auto image = render->image();
   auto stop = is_final ? render->report().stop : "";
   const std::lock_guard lock(mutex_);
   if (view_seq != view_seq_ || !image) return;
   const bool is_known = frame_.seq > 0 && frame_.view_seq == view_seq && frame_.progress.spp >= progress.spp;
   if (is_known && (frame_.is_final || !is_final)) return;
-  frame_ = {frame_.seq + 1, view_seq, is_final, exposure_, std::move(progress), std::move(stop), std::move(image)};
+  frame_ = {frame_.seq + 1, view_seq, is_final, exposure_, std::move(progress), std::move(stop), std::move(image), ""};
   changed_.notify_all();
+}
+
+void Session::note_failure(int64_t view_seq, std::string error) {
+  const std::lock_guard lock(mutex_);
+  const bool is_known = frame_.seq > 0 && frame_.view_seq == view_seq && !frame_.image;
+  if (view_seq != view_seq_ || is_known) return;
+  frame_ = {frame_.seq + 1, view_seq, true, exposure_, {}, "", nullptr, std::move(error)};
+  changed_.notify_all();
+}
+
+std::shared_ptr<Render> Session::start_render(const View& view, RenderOptions options) {
+  return Render::start(pool_, Priority::interactive, compiled_, plan_view(*compiled_, view), std::move(options));
 }
 
 std::optional<Frame> Session::wait_frame(int64_t after, std::stop_token gone, Steady::time_point until) const {

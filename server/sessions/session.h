@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Session: an interactive view of one compiled scene. The newest view wins: it cancels the older render. Every finished
-// pass makes a frame; only the newest frame is kept. Any thread.
+// pass makes a frame, and so does a failure, since who waits for a frame must hear of it; only the newest frame is
+// kept. Any thread.
 #pragma once
 
 #include <condition_variable>
@@ -21,22 +22,18 @@ struct Frame {
   bool is_final = false;  // the view's stop rules hold
   double exposure = 0.0;
   RenderProgress progress;
-  std::string stop;  // of the final frame
-  std::shared_ptr<const Image> image;
+  std::string stop;                    // of the final frame
+  std::shared_ptr<const Image> image;  // null where the view's render failed
+  std::string error;                   // then: why, for the log
 };
 
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(std::string id, TilePool& pool, ScenePtr scene, CompiledPtr compiled, View base)
-      : id_(std::move(id)),
-        pool_(pool),
-        scene_(std::move(scene)),
-        compiled_(std::move(compiled)),
-        base_(std::move(base)) {}
+  Session(std::string id, TilePool& pool, CompiledPtr compiled, View base)
+      : id_(std::move(id)), pool_(pool), compiled_(std::move(compiled)), base_(std::move(base)) {}
+  virtual ~Session() = default;
 
   const std::string& id() const { return id_; }
-  const ScenePtr& scene() const { return scene_; }
-  const CompiledPtr& compiled() const { return compiled_; }
   const View& base_view() const { return base_; }  // over which each view is merged
 
   // Starts rendering the view unless one of this sequence or a newer one came before. False: ignored. While moving one
@@ -49,13 +46,17 @@ class Session : public std::enable_shared_from_this<Session> {
   void close();
   bool is_closed() const;
 
+ protected:
+  // Starts the render of a view; tests put another in its place.
+  virtual std::shared_ptr<Render> start_render(const View& view, RenderOptions options);
+
  private:
   void note_pass(int64_t view_seq);
+  void note_failure(int64_t view_seq, std::string error);
 
   // Constant after construction.
   const std::string id_;
   TilePool& pool_;
-  const ScenePtr scene_;
   const CompiledPtr compiled_;
   const View base_;
 

@@ -12,9 +12,9 @@ int64_t pixels_of(const ImageSpec& image) { return int64_t{image.width} * image.
 
 }  // namespace
 
-Result<SessionPtr> Sessions::open(ScenePtr scene, CompiledPtr compiled, View view) {
+Result<SessionPtr> Sessions::open(CompiledPtr compiled, View view) {
   close_idle();
-  auto session = std::make_shared<Session>(random_id(), pool_, std::move(scene), std::move(compiled), view);
+  auto session = std::make_shared<Session>(random_id(), pool_, std::move(compiled), view);
   {
     const std::lock_guard lock(mutex_);
     if (is_stopping_) return fail("stopping", "the server is stopping");
@@ -45,12 +45,14 @@ int64_t Sessions::pixels() const {
   return sum;
 }
 
-bool Sessions::reserve(const std::string& id, const ImageSpec& image) {
+bool Sessions::reserve(const std::string& id, int64_t seq, const ImageSpec& image) {
   const std::lock_guard lock(mutex_);
   const auto known = by_id_.find(id);
   if (known == by_id_.end()) return true;  // closed meanwhile: the view goes nowhere
+  if (seq <= known->second.view_seq) return true;
   if (pixels() - known->second.pixels + pixels_of(image) > kMaxPixels) return false;
   known->second.pixels = pixels_of(image);
+  known->second.view_seq = seq;
   return true;
 }
 

@@ -23,11 +23,12 @@ class Sessions {
 
   // Opens a session and starts rendering its first view as number 0.
   // Errors: too_many_sessions, too_many_pixels, stopping.
-  Result<SessionPtr> open(ScenePtr scene, CompiledPtr compiled, View view);
+  Result<SessionPtr> open(CompiledPtr compiled, View view);
   // Null if unknown or expired. Counts as use.
   SessionPtr find(const std::string& id);
-  // Notes the size of the session's next view. False: all sessions together would show too many pixels.
-  bool reserve(const std::string& id, const ImageSpec& image);
+  // Notes the size of the session's view of this sequence, unless one as new came before: that view will be ignored and
+  // must not change the account. False: all sessions together would show too many pixels.
+  bool reserve(const std::string& id, int64_t seq, const ImageSpec& image);
   bool close(const std::string& id);
   void close_idle();
   void close_all();  // and opens no more
@@ -38,6 +39,7 @@ class Sessions {
     SessionPtr session;
     double used_ms;
     int64_t pixels;  // of its newest view
+    int64_t view_seq = 0;
   };
   int64_t pixels() const;  // REQUIRES: mutex_
 

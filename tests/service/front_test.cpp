@@ -70,6 +70,13 @@ TEST_F(FrontOfService, LongTargetsAndHeadsAreRefused) {
   EXPECT_EQ(
       raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20'000, 'a') + "\r\n\r\n").status,
       431);
+  // A line alone, in a head that is not too large.
+  for (const size_t length : {7'999, 8'100, 8'190, 9'000}) {
+    const std::string line = "X:" + std::string(length - 2, 'a');
+    const auto answer = raw(service_->port(), "GET / HTTP/1.1\r\nHost: localhost\r\n" + line + "\r\n\r\n");
+    EXPECT_EQ(answer.status, length > 8'000 ? 431 : 200) << length;
+    EXPECT_FALSE(answer.header("request-id").empty()) << length;
+  }
   std::string many = "GET / HTTP/1.1\r\nHost: localhost\r\n";
   for (int i = 0; i < 200; ++i) many += "X: y\r\n";
   EXPECT_EQ(raw(service_->port(), many + "\r\n").status, 431);
@@ -86,6 +93,23 @@ TEST_F(FrontOfService, OneConnectionServesManyRequestsAlsoPipelined) {
   const auto last = client.send("GET", "/v1/limits", {{"Connection", "close"}});
   EXPECT_EQ(last.header("connection"), "close");
   EXPECT_TRUE(client.at_end());
+}
+
+TEST_F(FrontOfService, ABodyThatManyReadSlowlyIsInMemoryOnce) {
+  Service own;
+  const std::string scene = small_scene() + std::string(8 << 20, ' ');
+  const std::string path = own.post("/v1/scenes", scene).header("location");
+  std::vector<std::unique_ptr<HttpClient>> readers;
+  for (int i = 0; i < 20; ++i) {
+    readers.push_back(std::make_unique<HttpClient>(own.port()));
+    readers.back()->write("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  }
+  ASSERT_TRUE(own.metric_reaches("tilelight_http_requests_total{route=\"/v1/scenes/{id}\",status=\"200\"}", 20));
+  EXPECT_TRUE(own.metric_reaches("tilelight_http_unread_bytes", 8 << 20));
+  EXPECT_LT(own.metric("tilelight_http_unread_bytes"), 9 << 20);
+  for (const auto& reader : readers) EXPECT_EQ(reader->read().body, scene);
+  const auto head = HttpClient(own.port()).send("HEAD", path);
+  EXPECT_EQ(head.header("content-length"), std::to_string(scene.size()));
 }
 
 TEST_F(FrontOfService, HeadHasTheHeadersOfGetAndNoBody) {
@@ -153,6 +177,20 @@ TEST_F(FrontOfService, WaitersBeyondTheirBudgetAreAnswered503AndOthersAreNotTouc
   EXPECT_FALSE(answer.header("retry-after").empty());
   EXPECT_EQ(own.post("/v1/renders", small_scene()).status, 202);
   EXPECT_EQ(own.get("/v1/limits").status, 200);
+}
+
+TEST(WaitSlots, LeaveAQuarterToOtherClients) {
+  server::WaitSlots slots(4);
+  {
+    std::vector<server::WaitSlots::Slot> held;
+    for (int i = 0; i < 3; ++i) held.push_back(std::move(*slots.take("one")));
+    EXPECT_EQ(slots.take("one").error().status, 429);
+    const auto other = slots.take("two");
+    ASSERT_TRUE(other);
+    EXPECT_EQ(slots.take("three").error().status, 503);
+  }
+  EXPECT_EQ(slots.free(), 4);
+  EXPECT_TRUE(slots.take("one"));
 }
 
 TEST_F(FrontOfService, AClientThatStopsSendingStillGetsItsAnswer) {

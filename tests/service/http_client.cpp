@@ -91,6 +91,12 @@ HttpAnswer HttpClient::read(bool head_only) {
 
 bool HttpClient::at_end() { return buffer_.empty() && !fill() && buffer_.empty(); }
 
+size_t HttpClient::skip(size_t most) {
+  std::string bytes(most, '\0');
+  const ssize_t got = recv(fd_, bytes.data(), bytes.size(), 0);
+  return got > 0 ? static_cast<size_t>(got) : 0;
+}
+
 void HttpClient::shut_down_sending() { shutdown(fd_, SHUT_WR); }
 
 HttpAnswer ask(int port, std::string_view method, std::string_view path, Fields fields, std::string_view body) {

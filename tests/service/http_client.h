@@ -39,6 +39,8 @@ class HttpClient {
   // True if the server closes the connection without another byte.
   bool at_end();
   void shut_down_sending();
+  // Reads at most so many bytes and forgets them. 0: the connection has ended.
+  size_t skip(size_t most);
 
  private:
   bool fill();  // reads some bytes; false at the end, on an error and after a minute

@@ -135,6 +135,7 @@ TEST(Config, UnknownNamesAndBadValuesRefuseToStartAndAreNamed) {
   EXPECT_NE(load({"--prot", "1"}).error().detail.find("--prot"), std::string::npos);
   EXPECT_NE(load({}, {{"TILELIGHT_PROT", "1"}}).error().detail.find("TILELIGHT_PROT"), std::string::npos);
   EXPECT_NE(load({"--port", "70000"}).error().detail.find("70000"), std::string::npos);
+  EXPECT_FALSE(load({"--max-results", "10001"})) << "more than there are records to find them by";
   EXPECT_NE(load({"--data-dir", "/tmp/x"}).error().detail.find(":memory:"), std::string::npos);
   EXPECT_NE(load({"--config", "/nowhere.json"}).error().detail.find("/nowhere.json"), std::string::npos);
 }

@@ -95,14 +95,18 @@ TEST_F(Renders, AClientThatLeavesWhileItWaitsCancelsItsRender) {
 }
 
 TEST_F(Renders, IdenticalRendersInFlightAreOneUntilTheLastHolderLeaves) {
+  const server::Metrics& metrics = service_->app().metrics();
+  const double shared = metrics.value("tilelight_renders_shared_total", "");
+  const double cancelled = metrics.value("tilelight_renders_total", "state=\"cancelled\"");
   const std::string first = service_->post("/v1/renders", endless_scene(3)).header("location");
   const std::string second = service_->post("/v1/renders", endless_scene(3)).header("location");
   EXPECT_NE(first, second);
-  EXPECT_GE(service_->app().metrics().value("tilelight_renders_shared_total", ""), 1);
+  EXPECT_EQ(metrics.value("tilelight_renders_shared_total", ""), shared + 1);
   ask(service_->port(), "DELETE", first);
   EXPECT_EQ(Json::parse(service_->get(second).body).at("state"), "running");
+  EXPECT_EQ(metrics.value("tilelight_renders_total", "state=\"cancelled\""), cancelled);
   ask(service_->port(), "DELETE", second);
-  EXPECT_TRUE(service_->metric_reaches("tilelight_renders_total{state=\"cancelled\"}", 1));
+  EXPECT_TRUE(service_->metric_reaches("tilelight_renders_total{state=\"cancelled\"}", cancelled + 1));
 }
 
 TEST_F(Renders, AWaitThatRunsOutBecomesAJob) {
@@ -142,6 +146,24 @@ TEST_F(Renders, AnIdempotencyKeyFindsTheJobOfTheFirstTry) {
   EXPECT_EQ(service_->post("/v1/renders", small_scene(6), key).status, 422);
   service_->clock().advance_ms(25 * 3600 * 1000.0);  // a key lives for a day
   EXPECT_EQ(service_->post("/v1/renders", small_scene(6), key).status, 202);
+}
+
+TEST_F(Renders, AnIdempotencyKeyWhoseJobWasDeletedMakesANewOne) {
+  const Fields key = {{"Idempotency-Key", "k2"}};
+  const std::string first = service_->post("/v1/renders", small_scene(10), key).header("location");
+  ASSERT_EQ(ask(service_->port(), "DELETE", first).status, 204);
+  const std::string second = service_->post("/v1/renders", small_scene(10), key).header("location");
+  EXPECT_NE(second, first);
+  EXPECT_EQ(service_->wait_for_end(second).value("state", ""), "done");
+  EXPECT_EQ(service_->post("/v1/renders", small_scene(10), key).header("location"), second);
+}
+
+TEST_F(Renders, AnIdempotencyKeyIsNotSpentOnARequestThatWasRefused) {
+  const Fields key = {{"Idempotency-Key", "k3"}};
+  ASSERT_EQ(service_->post("/v1/renders", R"({"objects": [{"type": "spher"}]})", key).status, 422);
+  const auto corrected = service_->post("/v1/renders", small_scene(11), key);
+  ASSERT_EQ(corrected.status, 202) << corrected.body;
+  EXPECT_EQ(service_->post("/v1/renders", small_scene(11), key).header("location"), corrected.header("location"));
 }
 
 TEST_F(Renders, TheListIsNewestFirstAndPagesByLink) {

@@ -35,12 +35,16 @@ Json Service::wait_for_end(const std::string& location) const {
   }
 }
 
+double Service::metric(const std::string& sample) const {
+  const std::string text = "\n" + ask(admin_port(), "GET", "/metrics").body;
+  const size_t at = text.find("\n" + sample + " ");
+  return at == std::string::npos ? 0.0 : std::atof(text.c_str() + at + sample.size() + 2);
+}
+
 bool Service::metric_reaches(const std::string& sample, double value) const {
   const auto until = server::after_ms(30'000.0);
   while (server::Steady::now() < until) {
-    const std::string text = "\n" + ask(admin_port(), "GET", "/metrics").body;
-    const size_t at = text.find("\n" + sample + " ");
-    if (at != std::string::npos && std::atof(text.c_str() + at + sample.size() + 2) >= value) return true;
+    if (metric(sample) >= value) return true;
   }
   return false;
 }

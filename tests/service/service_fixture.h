@@ -45,6 +45,8 @@ class Service {
   }
   // Long-polls the job until it is over; its last status.
   Json wait_for_end(const std::string& location) const;
+  // A sample of the metrics, by name and labels as printed; 0 where there is none.
+  double metric(const std::string& sample) const;
   // Asks the metrics until the sample (name and labels as printed) reaches the value. False if it never does.
   bool metric_reaches(const std::string& sample, double value) const;
 

@@ -118,15 +118,96 @@ TEST_F(SessionsOfService, TheirPixelsAreLimitedTogether) {
   TilePool pool(1);
   const HandClock clock;
   server::Sessions sessions(pool, clock, 4);
-  auto scene = std::make_shared<server::StoredScene>();
-  scene->parsed = parse_scene(small_scene(), Limits{}).value();
-  const auto compiled = compile_scene(scene->parsed.scene, pool);
-  const std::string one = (*sessions.open(scene, compiled, scene->parsed.view))->id();
-  const std::string two = (*sessions.open(scene, compiled, scene->parsed.view))->id();
-  EXPECT_TRUE(sessions.reserve(one, {8000, 8000, 0.0}));
-  EXPECT_FALSE(sessions.reserve(two, {4000, 4000, 0.0}));
-  EXPECT_TRUE(sessions.reserve(one, {640, 480, 0.0}));
-  EXPECT_TRUE(sessions.reserve(two, {4000, 4000, 0.0})) << "what one gave back";
+  const ParsedScene parsed = parse_scene(small_scene(), Limits{}).value();
+  const auto compiled = compile_scene(parsed.scene, pool);
+  const std::string one = (*sessions.open(compiled, parsed.view))->id();
+  const std::string two = (*sessions.open(compiled, parsed.view))->id();
+  EXPECT_TRUE(sessions.reserve(one, 2, {8000, 8000, 0.0}));
+  EXPECT_FALSE(sessions.reserve(two, 1, {4000, 4000, 0.0}));
+  EXPECT_TRUE(sessions.reserve(one, 1, {640, 480, 0.0})) << "older: ignored";
+  EXPECT_FALSE(sessions.reserve(two, 1, {4000, 4000, 0.0})) << "and gives nothing back";
+  EXPECT_TRUE(sessions.reserve(one, 3, {640, 480, 0.0}));
+  EXPECT_TRUE(sessions.reserve(two, 1, {4000, 4000, 0.0})) << "what one gave back";
+}
+
+// A server with one thread, which a session without end keeps for itself.
+class BusyService : public Service {
+ public:
+  static server::Config config() {
+    server::Config config;
+    config.threads = 1;
+    return config;
+  }
+  BusyService() : Service(config()) {}
+  void keep_busy() const { open_session(*this, endless_scene()); }
+};
+
+TEST_F(SessionsOfService, KeepNobodyFromAnAnswerThatNeedsNoRendering) {
+  BusyService own;
+  const std::string job = own.post("/v1/renders", small_scene()).header("location");
+  own.wait_for_end(job);
+  own.keep_busy();
+  EXPECT_EQ(own.post("/v1/scenes", small_scene() + std::string(100 << 10, ' ')).status, 201)
+      << "a large body's parsing";
+  EXPECT_EQ(own.get(job + "/image", {{"Accept", "image/jpeg"}}).status, 200) << "another format";
+}
+
+TEST_F(SessionsOfService, AClientThatLeavesBeforeItsSceneIsCompiledIsNoErrorOfTheServer) {
+  BusyService own;
+  const std::string scene = small_scene(), job = own.post("/v1/renders", scene).header("location");
+  own.wait_for_end(job);
+  own.keep_busy();
+  {
+    HttpClient client(own.port());
+    const std::string other = R"({"objects": [{"type": "sphere", "radius": 3}]})";
+    client.write("POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: " +
+                 std::to_string(other.size()) + "\r\n\r\n" + other);
+    ASSERT_TRUE(own.metric_reaches("tilelight_requests_waiting", 1));
+  }
+  EXPECT_TRUE(own.metric_reaches("tilelight_http_requests_total{route=\"/v1/plan\",status=\"408\"}", 1));
+}
+
+// A render that has failed before its first pass.
+class FailedRender final : public Render {
+ public:
+  void cancel() override {}
+  RenderProgress progress() const override {
+    RenderProgress progress;
+    progress.state = RenderState::failed;
+    progress.error = "a tile broke";
+    return progress;
+  }
+  RenderReport report() const override { return {}; }
+  std::shared_ptr<const Image> image() const override { return nullptr; }
+  bool wait_ms(double) const override { return true; }
+};
+
+class FailingSession final : public server::Session {
+ public:
+  using Session::Session;
+  bool throws = false;
+
+ private:
+  std::shared_ptr<Render> start_render(const View&, RenderOptions) override {
+    if (throws) throw std::bad_alloc();
+    return std::make_shared<FailedRender>();
+  }
+};
+
+TEST_F(SessionsOfService, WhoWaitsForAFrameOfARenderThatFailsIsToldSo) {
+  TilePool pool(1);
+  const auto session = std::make_shared<FailingSession>("id", pool, nullptr, View{});
+  ASSERT_TRUE(session->set_view(1, View{}, false));
+  const auto failed = session->wait_frame(0, {}, server::after_ms(0.0));
+  ASSERT_TRUE(failed);
+  EXPECT_EQ(failed->image, nullptr);
+  EXPECT_EQ(failed->error, "a tile broke");
+  session->throws = true;
+  ASSERT_TRUE(session->set_view(2, View{}, false));
+  const auto thrown = session->wait_frame(failed->seq, {}, server::after_ms(0.0));
+  ASSERT_TRUE(thrown);
+  EXPECT_EQ(thrown->view_seq, 2);
+  EXPECT_FALSE(thrown->error.empty());
 }
 
 TEST_F(SessionsOfService, ABadViewIs422AndChangesNothing) {
