@@ -22,20 +22,26 @@ async function findViolations(page) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
 }
 
-for (const [size, settings] of [['desktop', kDesktop], ['phone', kPhone]]) {
+// The opening, drawn on the phone, has a chess position and so the FEN field; the desktop shows the quicker scene.
+for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['phone', kPhone, '/']]) {
   for (const colorScheme of ['light', 'dark']) {
     test(`axe-core finds nothing on a ${size}, ${colorScheme}, whatever is open`, async () => {
       await onPage({
         server, settings: { ...settings, deviceScaleFactor: 1, colorScheme, reducedMotion: 'reduce', bypassCSP: true },
-        path: kQuickScene, expected: [/422/],
+        path: where, expected: [/422/],
       }, async ({ page }) => {
         assert.deepEqual(await findViolations(page), [], 'closed');
         for (const panel of ['scenes', 'edit', 'plan']) {
           await openPanel(page, panel);
           assert.deepEqual(await findViolations(page), [], panel);
+          if (panel === 'edit' && size === 'phone') {
+            await page.fill('#fen', 'rnbqkbnr/pppppppp/9/8/8/8/PPPPPPPP/RNBQKBNR w - - 0 1');
+            await page.waitForSelector('#fen[aria-invalid="true"]');
+            assert.deepEqual(await findViolations(page), [], 'edit with a FEN that is no position');
+          }
           if (panel === 'edit') {
             await page.fill('#editor-text', '{"objects": [{"type": "sphere", "raduis": 2}]}');
-            await page.waitForSelector('.error');
+            await page.waitForSelector('.error:has-text("radius")');
             assert.deepEqual(await findViolations(page), [], 'edit with a mistake');
           }
           await page.keyboard.press('Escape');
