@@ -148,6 +148,57 @@ test('an edit keeps the camera where the hand left it', async () => {
   });
 });
 
+test('an edit made without the server is no mistake, and is drawn when the server is back', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/ERR_INTERNET_DISCONNECTED/] }, async ({ page, context }) => {
+    await openPanel(page, 'edit');
+    await context.setOffline(true);
+    await caretAfter(page, '"ambient": 0.16');
+    await page.keyboard.insertText('9');
+    await page.waitForSelector('#notice:has-text("cannot be reached")');
+    assert.equal(await page.locator('.error').count(), 0);
+    await afterMoving(page, () => context.setOffline(false));
+    assert.match(await page.textContent('#scene-title'), /edited/);
+    assert.equal(await page.isVisible('#notice'), false);
+  });
+});
+
+test('an edit that the busy server turns away is tried again when it said', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/503/] }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.route('**/v1/sessions', (route) => route.fulfill({
+      status: 503, headers: { 'Retry-After': '1' }, contentType: 'application/problem+json', body: '{"title": "busy"}',
+    }), { times: 1 });
+    await caretAfter(page, '"ambient": 0.16');
+    await afterMoving(page, async () => {
+      await page.keyboard.insertText('9');
+      await page.waitForSelector('#notice:has-text("busy")');
+      assert.equal(await page.locator('.error').count(), 0);
+    });
+    assert.equal(await page.isVisible('#notice'), false);
+  });
+});
+
+test('a FEN goes into a text with mistakes, and the text is kept', async () => {
+  await onPage({ server, settings: { viewport: { width: 480, height: 640 } }, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    const fen = await page.inputValue('#fen');
+    const other = '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1';
+    await caretAfter(page, '"type": "plane", ');
+    await page.keyboard.insertText('"colour": 3, ');
+    await page.waitForSelector('.error');
+    const draft = await page.inputValue('#editor-text');
+    await Promise.all([
+      page.waitForResponse((response) => response.url().endsWith('/v1/sessions')),
+      page.fill('#fen', other),
+    ]);
+    assert.equal(await page.inputValue('#editor-text'), draft.replace(fen, other));
+    assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
+    await afterMoving(page, () => page.fill('#editor-text', draft.replace(fen, other).replace('"colour": 3, ', '')));
+    assert.equal(await page.inputValue('#fen'), other);
+    assert.equal(await page.locator('.error').count(), 0);
+  });
+});
+
 test('the plan says what is in use and what was left out and why', async () => {
   await onPage({ server, path: kQuickScene }, async ({ page }) => {
     await openPanel(page, 'plan');

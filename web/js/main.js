@@ -32,25 +32,24 @@ const panels = new Panels([
   [{ button: 'scenes-button', panel: 'scenes-panel' }],
   [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' }],
 ]);
-const editor = new Editor({ edited: (text) => drawEdit(text) });
-const fenField = new FenField({ edited: (fen) => drawFen(fen) });
+const editor = new Editor({ edited: drawDraft });
+const fenField = new FenField({ edited: drawFen });
 
 // What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
 const shown = { file: null, title: 'Your scene', text: null };
 let picker = null;
 
-// Shows a scene in place of the present one; throws what the server has against it.
-async function open(text, { file = null, title = shown.title, camera = null }) {
+// Shows the scene whose text `load()` gives in place of the present one; throws what the server has against it.
+async function open(load, { file = null, title = shown.title, isEdited = false, camera = null }) {
   status.restart();
-  const info = await viewer.open(text, camera);
-  const scene = JSON.parse(text);
-  Object.assign(shown, { file, title, text });
+  const info = await viewer.open(load, camera);
+  const scene = JSON.parse(info.text);
+  Object.assign(shown, { file, title, text: info.text });
   status.expect(scene.render);
-  byId('scene-title').textContent = file ? title : `${title}, edited`;
+  byId('scene-title').textContent = isEdited ? `${title}, edited` : title;
   byId('picture').setAttribute('aria-label', `Picture: ${title}`);
   document.title = `${title} · Tilelight`;
   picker?.mark(file);
-  editor.setText(text);
   fenField.show(findPosition(scene));
   showPlan(byId('plan-body'), info);
 }
@@ -58,7 +57,8 @@ async function open(text, { file = null, title = shown.title, camera = null }) {
 // As open(), for a scene that somebody else wrote: what goes wrong is said in the notice.
 async function openOrExplain(load, options) {
   try {
-    await open(await load(), options);
+    await open(load, options);
+    editor.show(shown.text);
   } catch (error) {
     if (!(error instanceof Superseded)) status.broken(error.message, () => openOrExplain(load, options));
   }
@@ -70,27 +70,31 @@ function pick(scene) {
   if (matchMedia('(max-width: 720px)').matches) panels.close('scenes-panel');
 }
 
-// Errors of a scene text that the user wrote, in the server's words; empty when it was drawn.
-async function tryText(text) {
+// Shows what the user wrote. Returns what the server has against it, or null if something newer is under way.
+async function drawDraft(text) {
   const camera = shown.text && sameCamera(text, shown.text) ? viewer.camera : null;
+  let errors = [];
   try {
-    await open(text, { camera });
-    return [];
+    await open(() => text, { camera, isEdited: true });
   } catch (error) {
     if (error instanceof Superseded) return null;
-    if (error instanceof api.Problem && error.errors.length) return error.errors;
-    return [{ pointer: '', detail: error.message }];
+    const isExplained = error instanceof api.Problem && error.errors.length;
+    errors = isExplained ? error.errors : [{ pointer: '', detail: error.message }];
   }
+  editor.judge(text, errors);
+  return errors;
 }
 
-async function drawEdit(text) {
-  const errors = await tryText(text);
-  if (errors) editor.showErrors(errors);
-}
-
+// A FEN is written into the text that is being edited, whatever state that is in, so that neither is lost.
 async function drawFen(fen) {
-  const errors = await tryText(withFen(shown.text, fen));
-  if (errors) fenField.showError(errors[0]);
+  const text = withFen(editor.text, fen);
+  if (text === null) {
+    fenField.showError({ detail: 'the scene below has no position to put this in' });
+    return;
+  }
+  editor.amend(text);
+  const errors = await drawDraft(text);
+  if (errors) fenField.showError(errors.find(({ pointer }) => pointer.endsWith('/fen')));
 }
 
 async function download() {

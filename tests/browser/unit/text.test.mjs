@@ -30,6 +30,17 @@ test('a position without a FEN gets one', () => {
   assert.equal(findPosition(JSON.parse(withFen(text, '8/8/8/8/8/8/8/8'))).fen, '8/8/8/8/8/8/8/8');
 });
 
+test('a FEN goes into a text that is still being written, and nothing else changes', () => {
+  const draft = kText.replace('{"type": "sphere"}', '{"type": "sphere", "rad');
+  assert.equal(withFen(draft, '8/8/8/8/8/8/8/K6k'), draft.replace(kStart, '8/8/8/8/8/8/8/K6k'));
+});
+
+test('a text without a position has no place for a FEN', () => {
+  for (const text of ['{"objects": [{"type": "sphere"}]}', '{"objects": [', '{"objects": 3}', 'null', '']) {
+    assert.equal(withFen(text, '8/8/8/8/8/8/8/8'), null);
+  }
+});
+
 test('an edit keeps the camera unless it is the camera that was edited', () => {
   assert.ok(sameCamera(kText, kText.replace('sphere', 'cube')));
   assert.ok(!sameCamera(kText, kText.replace('[1, 2, 3]', '[1, 2, 4]')));
