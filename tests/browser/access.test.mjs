@@ -83,6 +83,32 @@ test('a movement is spoken of once, when its picture is done', async () => {
   });
 });
 
+test('mistakes in the editor are spoken of when their number changes, and the field leads to them', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/422/] }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.evaluate(() => {
+      window.spoken = [];
+      const state = document.getElementById('editor-state');
+      new MutationObserver(() => window.spoken.push(state.textContent)).observe(state, { childList: true, characterData: true });
+    });
+    const judged = async (text) => {
+      await page.fill('#editor-text', text);
+      await page.waitForSelector('#editor-state.is-old', { state: 'attached' });
+      await page.waitForSelector('#editor-state:not(.is-old)');
+    };
+    const good = await page.inputValue('#editor-text');
+    await judged('{"objects": [{"type": "sphere", "raduis": 2}]}');
+    await judged('{"objects": [{"type": "sphere", "radios": 2}]}');
+    const field = page.locator('#editor-text');
+    assert.equal(await field.getAttribute('aria-invalid'), 'true');
+    assert.match(await page.textContent(`#${await field.getAttribute('aria-errormessage')}`), /radios/);
+    await judged(good);
+    assert.equal(await field.getAttribute('aria-invalid'), 'false');
+    assert.deepEqual(await page.evaluate(() => window.spoken), ['1 mistake', 'Drawn']);
+    assert.equal(await page.getAttribute('#editor-state', 'role'), 'status');
+  });
+});
+
 test('who asked for less motion gets a camera that stops at once', async () => {
   await onPage({ server, settings: { viewport: { width: 480, height: 320 }, reducedMotion: 'reduce' }, path: kQuickScene },
     async ({ page }) => {
