@@ -256,6 +256,64 @@ test('a link leads back to the same scene from the same place', async () => {
   });
 });
 
+test('a link put into an open page is followed', async () => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
+    const views = [];
+    page.on('request', (request) => request.method() === 'PUT' && views.push(request.postDataJSON().camera));
+    await afterMoving(page, () => page.evaluate(() => { location.hash = '#scene=cubes&camera=p,33,9,4,2,0,1,0,0,1,0'; }));
+    assert.deepEqual(views.at(-1).position, [9, 4, 2]);
+    await page.evaluate(() => { location.hash = '#scene=knight'; });
+    await page.waitForSelector('#scene-title:has-text("Knight")');
+  });
+});
+
+for (const [what, hash, words] of [['damaged', 'json=AAAA', /damaged/], ['to an unknown scene', 'scene=nowhere', /no scene “nowhere”/]]) {
+  test(`a link that is ${what} says so, and the first scene comes from its own place`, async () => {
+    await onPage({ server, path: kQuickScene }, async ({ page }) => {
+      const { camera } = await (await page.request.get(`${server.url}/scenes/opening.json`)).json();
+      const [view] = await Promise.all([
+        page.waitForRequest((request) => request.method() === 'PUT'),
+        page.evaluate((at) => { location.hash = `#${at}&camera=p,33,9,4,2,0,1,0,0,1,0`; }, hash),
+      ]);
+      assert.match(await page.textContent('.toast.is-shown'), words);
+      assert.equal(await page.textContent('#scene-title'), 'Opening');
+      assert.deepEqual(view.postDataJSON().camera.position, camera.position);
+    });
+  });
+}
+
+test('before there is a picture nothing can be taken along', async () => {
+  const buttons = ['reset', 'link', 'curl', 'download'];
+  await onPage({ server, path: kQuickScene, expected: [/422/] }, async ({ page, context }) => {
+    for (const name of buttons) assert.ok(await page.isEnabled(`#${name}-button`), name);
+    const other = await context.newPage();
+    await other.route('**/scenes/cubes.json', (route) => route.fulfill({ contentType: 'application/json', body: '{"objects": 3}' }));
+    await other.goto(server.url + kQuickScene);
+    await other.waitForSelector('#notice-button');
+    for (const name of buttons) assert.ok(await other.isDisabled(`#${name}-button`), name);
+    await other.unroute('**/scenes/cubes.json');
+    await other.click('#notice-button');
+    await finished(other);
+    for (const name of buttons) assert.ok(await other.isEnabled(`#${name}-button`), name);
+  });
+});
+
+test('clicks while a picture is being made start no second render', async () => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
+    let asked = 0;
+    await page.route('**/v1/renders', async (route) => {
+      ++asked;
+      await route.continue();
+    });
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.evaluate(() => { for (let i = 0; i < 3; ++i) document.getElementById('download-button').click(); }),
+    ]);
+    await download.path();
+    assert.equal(asked, 1);
+  });
+});
+
 for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { width: 768, height: 1024 } }],
   ['desktop', kDesktop]]) {
   test(`nothing sticks out of a ${name}, with any panel open`, async () => {

@@ -15,6 +15,8 @@ import { showHint, Status } from './status.js';
 import { say } from './toast.js';
 import { Viewer } from './viewer.js';
 
+const kNeedScene = ['reset', 'link', 'curl', 'download'];  // these buttons mean nothing before there is a picture
+
 const status = new Status();
 const hideHint = showHint();
 const viewer = new Viewer(byId('picture'), {
@@ -37,6 +39,7 @@ const fenField = new FenField({ edited: drawFen });
 
 // What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
 const shown = { file: null, title: 'Your scene', text: null };
+let scenes = [];
 let picker = null;
 
 // Shows the scene whose text `load()` gives in place of the present one; throws what the server has against it.
@@ -49,6 +52,7 @@ async function open(load, { file = null, title = shown.title, isEdited = false, 
   byId('scene-title').textContent = isEdited ? `${title}, edited` : title;
   byId('picture').setAttribute('aria-label', `Picture: ${title}`);
   document.title = `${title} · Tilelight`;
+  for (const name of kNeedScene) byId(`${name}-button`).disabled = false;
   picker?.mark(file);
   fenField.show(findPosition(scene));
   showPlan(byId('plan-body'), info);
@@ -99,6 +103,7 @@ async function drawFen(fen) {
 
 async function download() {
   const button = byId('download-button');
+  if (button.getAttribute('aria-busy') === 'true') return;  // one at a time: a render may take the server minutes
   button.setAttribute('aria-busy', 'true');
   try {
     const document_ = stillDocument(shown.text, viewer.still);
@@ -126,9 +131,21 @@ function copyCurl() {
   return copy(curlCommand(location.origin, stillDocument(shown.text, viewer.still)), 'curl command');
 }
 
+// Opens what the address asks for. If there is no such thing, the first scene comes as it is, and a word that it did.
+async function openLink() {
+  const { scene, text, camera, isDamaged } = await decodeLink(location.hash);
+  if (text) {
+    await openOrExplain(() => text, { title: 'Shared scene', camera });
+    return;
+  }
+  const found = scenes.find(({ file }) => file === `${scene}.json`);
+  const isLost = isDamaged || (scene !== null && !found);
+  const { file, title } = found ?? scenes[0];
+  await openOrExplain(() => api.loadScene(file), { file, title, camera: isLost ? null : camera });
+  if (isLost) say(`${isDamaged ? 'The link is damaged' : `There is no scene “${scene}”`}: this is ${title}`, 'warning');
+}
+
 async function start() {
-  const link = await decodeLink(location.hash);
-  let scenes;
   try {
     scenes = await api.listScenes();
   } catch (error) {
@@ -136,9 +153,8 @@ async function start() {
     return;
   }
   picker = new ScenePicker({ api, list: byId('scene-list'), scenes, pick });
-  const wanted = scenes.find(({ file }) => file === `${link.scene}.json`) ?? scenes[0];
-  if (link.text) await openOrExplain(() => link.text, { title: 'Shared scene', camera: link.camera });
-  else await openOrExplain(() => api.loadScene(wanted.file), { ...wanted, camera: link.camera });
+  addEventListener('hashchange', openLink);
+  await openLink();
 }
 
 byId('scenes-panel').addEventListener('panel-open', () => picker?.drawThumbnails());

@@ -64,9 +64,14 @@ test('a link brings back scene, text and camera', async () => {
   assert.deepEqual((await decodeLink(await encodeLink({ scene: 'x', camera: flat }))).camera, flat);
 });
 
-test('a broken link is no link', async () => {
-  for (const hash of ['', '#', '#json=%%%', '#json=AAAA', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
-    assert.deepEqual(await decodeLink(hash), { scene: null, text: null, camera: null });
+test('a broken link is no link, and one with a text that cannot be read is known as damaged', async () => {
+  const nothing = { scene: null, text: null, camera: null, isDamaged: false };
+  for (const hash of ['', '#', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
+    assert.deepEqual(await decodeLink(hash), nothing);
+  }
+  const whole = await encodeLink({ text: kText });
+  for (const hash of ['#json=%%%', '#json=AAAA', '#json=', whole.slice(0, whole.length / 2)]) {
+    assert.deepEqual(await decodeLink(hash), { ...nothing, isDamaged: true });
   }
 });
 
