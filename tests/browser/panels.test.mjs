@@ -86,6 +86,8 @@ test('a FEN that is no position says so in its place, and the picture stays', as
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'true');
     assert.equal(await look(page), before);
     await shoot(page, 'small-fen-error');
+    assert.equal(await page.locator('.dot').count(), 1, 'its line is marked');
+    assert.equal(await page.locator('.error').count(), 0, 'its words stand in one place');
     await page.fill('#fen', '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1');
     await page.waitForFunction(() => document.getElementById('fen-error').textContent === '');
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
@@ -206,6 +208,8 @@ test('the plan says what is in use and what was left out and why', async () => {
     assert.ok(await page.locator('.left-out dt').count() > 0);
     assert.equal(await page.locator('.left-out dt').count(), await page.locator('.left-out dd').count());
     assert.match(await page.textContent('#plan-body'), /Triangles/);
+    await page.waitForSelector('.predicted dt');
+    assert.match(await page.textContent('.this-picture'), /Predicted.*rays.*Rendering/);
     await shoot(page, 'small-plan');
   });
 });

@@ -9,7 +9,6 @@ export class Problem extends Error {
   constructor(status, body, retryAfterS) {
     super(body.detail || body.title || `The server answered ${status}.`);
     this.status = status;
-    this.title = body.title ?? '';
     this.errors = Array.isArray(body.errors) ? body.errors : [];
     if (this.errors.length === 0 && body.line) this.errors = [{ ...body, pointer: body.pointer ?? '' }];
     this.retryAfterS = retryAfterS;
@@ -79,6 +78,11 @@ export async function nextFrame(id, after, format, signal) {
     timings: parseServerTiming(response.headers.get('Server-Timing')),
     blob: await blobOf(response),
   };
+}
+
+// What the server would do for a whole scene document, and what that should cost; nothing is drawn.
+export async function planOf(document) {
+  return jsonOf(call('/v1/plan', { method: 'POST', headers: kJson, body: JSON.stringify(document) }));
 }
 
 // A finished picture of a whole scene document. Takes as long as it takes: a render that the server turned into a job

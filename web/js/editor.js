@@ -45,16 +45,17 @@ export class Editor {
     this.#changed();
   }
 
-  // `errors` of `text` as the server tells them: {pointer, detail, allowed, hint, line, column}. A text that has changed
-  // since waits for its own judgement.
-  judge(text, errors) {
-    if (text === this.#area.value) this.#showErrors(errors);
+  // `errors` of `text` as the server tells them: {pointer, detail, allowed, hint, line, column}; those in `told` stand in
+  // words elsewhere. A text that has changed since waits for its own judgement.
+  judge(text, errors, told = []) {
+    if (text === this.#area.value) this.#showErrors(errors, told);
   }
 
-  #showErrors(errors) {
-    this.#area.setAttribute('aria-invalid', String(errors.length > 0));
-    this.#list.hidden = errors.length === 0;
-    this.#list.replaceChildren(...errors.map((error) => el('li', {}, this.#describe(error))));
+  #showErrors(errors, told = []) {
+    const untold = errors.filter((error) => !told.includes(error));
+    this.#area.setAttribute('aria-invalid', String(untold.length > 0));
+    this.#list.hidden = untold.length === 0;
+    this.#list.replaceChildren(...untold.map((error) => el('li', {}, this.#describe(error))));
     this.#marks.replaceChildren(...errors.filter(({ line }) => line).flatMap((error) => this.#mark(error)));
     this.#numbers.querySelectorAll('.dot').forEach((dot) => dot.remove());
     for (const { line } of errors) if (line) this.#numbers.append(placed('span', 'dot', line));

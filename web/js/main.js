@@ -6,7 +6,7 @@ import { byId } from './dom.js';
 import { Editor } from './editor.js';
 import { FenField } from './fen.js';
 import { Panels } from './panels.js';
-import { showPlan, showTimings } from './plan.js';
+import { showPlan, showPrediction, showTimings } from './plan.js';
 import { findPosition, sameCamera, withFen } from './scene_text.js';
 import { ScenePicker } from './scenes.js';
 import { Superseded } from './session.js';
@@ -24,7 +24,9 @@ const viewer = new Viewer(byId('picture'), {
   on: {
     frame: (event) => {
       status.show(event);
-      if (event.frame.isFinal && !event.moving) showTimings(byId('plan-body'), event.frame.timings);
+      if (!event.frame.isFinal || event.moving) return;
+      showTimings(byId('plan-body'), event.frame.timings);
+      foretell();
     },
     state: (name, problem) => status.state(name, problem),
     moved: hideHint,
@@ -34,7 +36,7 @@ const panels = new Panels([
   [{ button: 'scenes-button', panel: 'scenes-panel' }],
   [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' }],
 ]);
-const editor = new Editor({ edited: drawDraft });
+const editor = new Editor({ edited: drawEdit });
 const fenField = new FenField({ edited: drawFen });
 
 // What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
@@ -64,8 +66,16 @@ async function openOrExplain(load, options) {
     await open(load, options);
     editor.show(shown.text);
   } catch (error) {
-    if (!(error instanceof Superseded)) status.broken(error.message, () => openOrExplain(load, options));
+    if (error instanceof Superseded) return;
+    status.broken(`This scene cannot be drawn: ${error.message}`, () => openOrExplain(load, options));
   }
+}
+
+// Asks what the picture on show should have cost. A question to the server for those who look at the plan only.
+async function foretell() {
+  if (byId('plan-panel').hidden || !shown.text) return;
+  const { predicted } = await api.planOf(stillDocument(shown.text, viewer.still)).catch(() => ({}));
+  if (predicted) showPrediction(byId('plan-body'), predicted);
 }
 
 function pick(scene) {
@@ -75,18 +85,21 @@ function pick(scene) {
 }
 
 // Shows what the user wrote. Returns what the server has against it, or null if something newer is under way.
-async function drawDraft(text) {
+async function tryText(text) {
   const camera = shown.text && sameCamera(text, shown.text) ? viewer.camera : null;
-  let errors = [];
   try {
     await open(() => text, { camera, isEdited: true });
+    return [];
   } catch (error) {
     if (error instanceof Superseded) return null;
-    const isExplained = error instanceof api.Problem && error.errors.length;
-    errors = isExplained ? error.errors : [{ pointer: '', detail: error.message }];
+    if (error instanceof api.Problem && error.errors.length) return error.errors;
+    return [{ pointer: '', detail: error.message }];
   }
-  editor.judge(text, errors);
-  return errors;
+}
+
+async function drawEdit(text) {
+  const errors = await tryText(text);
+  if (errors) editor.judge(text, errors);
 }
 
 // A FEN is written into the text that is being edited, whatever state that is in, so that neither is lost.
@@ -97,8 +110,11 @@ async function drawFen(fen) {
     return;
   }
   editor.amend(text);
-  const errors = await drawDraft(text);
-  if (errors) fenField.showError(errors.find(({ pointer }) => pointer.endsWith('/fen')));
+  const errors = await tryText(text);
+  if (!errors) return;
+  const inField = errors.filter(({ pointer }) => pointer.endsWith('/fen')).slice(0, 1);
+  fenField.showError(inField[0]);
+  editor.judge(text, errors, inField);
 }
 
 async function download() {
@@ -158,6 +174,7 @@ async function start() {
 }
 
 byId('scenes-panel').addEventListener('panel-open', () => picker?.drawThumbnails());
+byId('plan-panel').addEventListener('panel-open', foretell);
 byId('reset-button').addEventListener('click', () => viewer.reset());
 byId('link-button').addEventListener('click', copyLink);
 byId('curl-button').addEventListener('click', copyCurl);
