@@ -271,8 +271,11 @@ test('a link put into an open page is followed', async () => {
   });
 });
 
-for (const [what, hash, words] of [['damaged', 'json=AAAA', /damaged/], ['to an unknown scene', 'scene=nowhere', /no scene “nowhere”/]]) {
-  test(`a link that is ${what} says so, and the first scene comes from its own place`, async () => {
+for (const [what, hash, words] of [
+  ['a damaged text', 'json=AAAA', /damaged/],
+  ['an unknown scene', 'scene=nowhere', /no scene “nowhere”/],
+]) {
+  test(`a link to ${what} says so, and the first scene comes from its own place`, async () => {
     await onPage({ server, path: kQuickScene }, async ({ page }) => {
       const { camera } = await (await page.request.get(`${server.url}/scenes/opening.json`)).json();
       const [view] = await Promise.all([
@@ -291,7 +294,7 @@ test('before there is a picture nothing can be taken along', async () => {
   await onPage({ server, path: kQuickScene, expected: [/422/] }, async ({ page, context }) => {
     for (const name of buttons) assert.ok(await page.isEnabled(`#${name}-button`), name);
     const other = await context.newPage();
-    await other.route('**/scenes/cubes.json', (route) => route.fulfill({ contentType: 'application/json', body: '{"objects": 3}' }));
+    await other.route('**/scenes/cubes.json', (route) => route.fulfill({ body: '{"objects": 3}' }));
     await other.goto(server.url + kQuickScene);
     await other.waitForSelector('#notice-button');
     for (const name of buttons) assert.ok(await other.isDisabled(`#${name}-button`), name);

@@ -44,5 +44,6 @@ for (const [what, read] of Object.entries(kReaders)) {
 
 test('a refusal whose reasons are lost on the way is still a refusal', async () => {
   answerWith(breaksWith(new TypeError('network error')), { status: 503, headers: { 'Retry-After': '7' } });
-  await assert.rejects(openSession('{}'), (error) => error instanceof Problem && error.status === 503 && error.retryAfterS === 7);
+  const isRefusal = (error) => error instanceof Problem && error.status === 503 && error.retryAfterS === 7;
+  await assert.rejects(openSession('{}'), isRefusal);
 });
