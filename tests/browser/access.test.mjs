@@ -22,20 +22,26 @@ async function findViolations(page) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
 }
 
-for (const [size, settings] of [['desktop', kDesktop], ['phone', kPhone]]) {
+// The opening, drawn on the phone, has a chess position and so the FEN field; the desktop shows the quicker scene.
+for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['phone', kPhone, '/']]) {
   for (const colorScheme of ['light', 'dark']) {
     test(`axe-core finds nothing on a ${size}, ${colorScheme}, whatever is open`, async () => {
       await onPage({
         server, settings: { ...settings, deviceScaleFactor: 1, colorScheme, reducedMotion: 'reduce', bypassCSP: true },
-        path: kQuickScene, expected: [/422/],
+        path: where, expected: [/422/],
       }, async ({ page }) => {
         assert.deepEqual(await findViolations(page), [], 'closed');
         for (const panel of ['scenes', 'edit', 'plan']) {
           await openPanel(page, panel);
           assert.deepEqual(await findViolations(page), [], panel);
+          if (panel === 'edit' && size === 'phone') {
+            await page.fill('#fen', 'rnbqkbnr/pppppppp/9/8/8/8/PPPPPPPP/RNBQKBNR w - - 0 1');
+            await page.waitForSelector('#fen[aria-invalid="true"]');
+            assert.deepEqual(await findViolations(page), [], 'edit with a FEN that is no position');
+          }
           if (panel === 'edit') {
             await page.fill('#editor-text', '{"objects": [{"type": "sphere", "raduis": 2}]}');
-            await page.waitForSelector('.error');
+            await page.waitForSelector('.error:has-text("radius")');
             assert.deepEqual(await findViolations(page), [], 'edit with a mistake');
           }
           await page.keyboard.press('Escape');
@@ -74,6 +80,32 @@ test('a movement is spoken of once, when its picture is done', async () => {
     await page.waitForFunction(() => window.spoken.some((text) => text !== ''));
     const spoken = (await page.evaluate(() => window.spoken)).filter((text) => text !== '');
     assert.deepEqual(spoken, ['The picture is done: 16 samples.']);
+  });
+});
+
+test('mistakes in the editor are spoken of when their number changes, and the field leads to them', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/422/] }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.evaluate(() => {
+      window.spoken = [];
+      const state = document.getElementById('editor-state');
+      new MutationObserver(() => window.spoken.push(state.textContent)).observe(state, { childList: true, characterData: true });
+    });
+    const judged = async (text) => {
+      await page.fill('#editor-text', text);
+      await page.waitForSelector('#editor-state.is-old', { state: 'attached' });
+      await page.waitForSelector('#editor-state:not(.is-old)');
+    };
+    const good = await page.inputValue('#editor-text');
+    await judged('{"objects": [{"type": "sphere", "raduis": 2}]}');
+    await judged('{"objects": [{"type": "sphere", "radios": 2}]}');
+    const field = page.locator('#editor-text');
+    assert.equal(await field.getAttribute('aria-invalid'), 'true');
+    assert.match(await page.textContent(`#${await field.getAttribute('aria-errormessage')}`), /radios/);
+    await judged(good);
+    assert.equal(await field.getAttribute('aria-invalid'), 'false');
+    assert.deepEqual(await page.evaluate(() => window.spoken), ['1 mistake', 'Drawn']);
+    assert.equal(await page.getAttribute('#editor-state', 'role'), 'status');
   });
 });
 

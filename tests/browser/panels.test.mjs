@@ -86,6 +86,8 @@ test('a FEN that is no position says so in its place, and the picture stays', as
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'true');
     assert.equal(await look(page), before);
     await shoot(page, 'small-fen-error');
+    assert.equal(await page.locator('.dot').count(), 1, 'its line is marked');
+    assert.equal(await page.locator('.error').count(), 0, 'its words stand in one place');
     await page.fill('#fen', '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1');
     await page.waitForFunction(() => document.getElementById('fen-error').textContent === '');
     assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
@@ -148,6 +150,57 @@ test('an edit keeps the camera where the hand left it', async () => {
   });
 });
 
+test('an edit made without the server is no mistake, and is drawn when the server is back', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/ERR_INTERNET_DISCONNECTED/] }, async ({ page, context }) => {
+    await openPanel(page, 'edit');
+    await context.setOffline(true);
+    await caretAfter(page, '"ambient": 0.16');
+    await page.keyboard.insertText('9');
+    await page.waitForSelector('#notice:has-text("cannot be reached")');
+    assert.equal(await page.locator('.error').count(), 0);
+    await afterMoving(page, () => context.setOffline(false));
+    assert.match(await page.textContent('#scene-title'), /edited/);
+    assert.equal(await page.isVisible('#notice'), false);
+  });
+});
+
+test('an edit that the busy server turns away is tried again when it said', async () => {
+  await onPage({ server, path: kQuickScene, expected: [/503/] }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.route('**/v1/sessions', (route) => route.fulfill({
+      status: 503, headers: { 'Retry-After': '1' }, contentType: 'application/problem+json', body: '{"title": "busy"}',
+    }), { times: 1 });
+    await caretAfter(page, '"ambient": 0.16');
+    await afterMoving(page, async () => {
+      await page.keyboard.insertText('9');
+      await page.waitForSelector('#notice:has-text("busy")');
+      assert.equal(await page.locator('.error').count(), 0);
+    });
+    assert.equal(await page.isVisible('#notice'), false);
+  });
+});
+
+test('a FEN goes into a text with mistakes, and the text is kept', async () => {
+  await onPage({ server, settings: { viewport: { width: 480, height: 640 } }, expected: kRefused }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    const fen = await page.inputValue('#fen');
+    const other = '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1';
+    await caretAfter(page, '"type": "plane", ');
+    await page.keyboard.insertText('"colour": 3, ');
+    await page.waitForSelector('.error');
+    const draft = await page.inputValue('#editor-text');
+    await Promise.all([
+      page.waitForResponse((response) => response.url().endsWith('/v1/sessions')),
+      page.fill('#fen', other),
+    ]);
+    assert.equal(await page.inputValue('#editor-text'), draft.replace(fen, other));
+    assert.equal(await page.getAttribute('#fen', 'aria-invalid'), 'false');
+    await afterMoving(page, () => page.fill('#editor-text', draft.replace(fen, other).replace('"colour": 3, ', '')));
+    assert.equal(await page.inputValue('#fen'), other);
+    assert.equal(await page.locator('.error').count(), 0);
+  });
+});
+
 test('the plan says what is in use and what was left out and why', async () => {
   await onPage({ server, path: kQuickScene }, async ({ page }) => {
     await openPanel(page, 'plan');
@@ -155,6 +208,8 @@ test('the plan says what is in use and what was left out and why', async () => {
     assert.ok(await page.locator('.left-out dt').count() > 0);
     assert.equal(await page.locator('.left-out dt').count(), await page.locator('.left-out dd').count());
     assert.match(await page.textContent('#plan-body'), /Triangles/);
+    await page.waitForSelector('.predicted dt');
+    assert.match(await page.textContent('.this-picture'), /Predicted.*rays.*Rendering/);
     await shoot(page, 'small-plan');
   });
 });
@@ -202,6 +257,67 @@ test('a link leads back to the same scene from the same place', async () => {
     await other.goto(url);
     await finished(other);
     assert.equal(await other.textContent('#scene-title'), 'Knight');
+  });
+});
+
+test('a link put into an open page is followed', async () => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
+    const views = [];
+    page.on('request', (request) => request.method() === 'PUT' && views.push(request.postDataJSON().camera));
+    await afterMoving(page, () => page.evaluate(() => { location.hash = '#scene=cubes&camera=p,33,9,4,2,0,1,0,0,1,0'; }));
+    assert.deepEqual(views.at(-1).position, [9, 4, 2]);
+    await page.evaluate(() => { location.hash = '#scene=knight'; });
+    await page.waitForSelector('#scene-title:has-text("Knight")');
+  });
+});
+
+for (const [what, hash, words] of [
+  ['a damaged text', 'json=AAAA', /damaged/],
+  ['an unknown scene', 'scene=nowhere', /no scene “nowhere”/],
+]) {
+  test(`a link to ${what} says so, and the first scene comes from its own place`, async () => {
+    await onPage({ server, path: kQuickScene }, async ({ page }) => {
+      const { camera } = await (await page.request.get(`${server.url}/scenes/opening.json`)).json();
+      const [view] = await Promise.all([
+        page.waitForRequest((request) => request.method() === 'PUT'),
+        page.evaluate((at) => { location.hash = `#${at}&camera=p,33,9,4,2,0,1,0,0,1,0`; }, hash),
+      ]);
+      assert.match(await page.textContent('.toast.is-shown'), words);
+      assert.equal(await page.textContent('#scene-title'), 'Opening');
+      assert.deepEqual(view.postDataJSON().camera.position, camera.position);
+    });
+  });
+}
+
+test('before there is a picture nothing can be taken along', async () => {
+  const buttons = ['reset', 'link', 'curl', 'download'];
+  await onPage({ server, path: kQuickScene, expected: [/422/] }, async ({ page, context }) => {
+    for (const name of buttons) assert.ok(await page.isEnabled(`#${name}-button`), name);
+    const other = await context.newPage();
+    await other.route('**/scenes/cubes.json', (route) => route.fulfill({ body: '{"objects": 3}' }));
+    await other.goto(server.url + kQuickScene);
+    await other.waitForSelector('#notice-button');
+    for (const name of buttons) assert.ok(await other.isDisabled(`#${name}-button`), name);
+    await other.unroute('**/scenes/cubes.json');
+    await other.click('#notice-button');
+    await finished(other);
+    for (const name of buttons) assert.ok(await other.isEnabled(`#${name}-button`), name);
+  });
+});
+
+test('clicks while a picture is being made start no second render', async () => {
+  await onPage({ server, path: kQuickScene }, async ({ page }) => {
+    let asked = 0;
+    await page.route('**/v1/renders', async (route) => {
+      ++asked;
+      await route.continue();
+    });
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.evaluate(() => { for (let i = 0; i < 3; ++i) document.getElementById('download-button').click(); }),
+    ]);
+    await download.path();
+    assert.equal(asked, 1);
   });
 });
 

@@ -9,7 +9,6 @@ export class Problem extends Error {
   constructor(status, body, retryAfterS) {
     super(body.detail || body.title || `The server answered ${status}.`);
     this.status = status;
-    this.title = body.title ?? '';
     this.errors = Array.isArray(body.errors) ? body.errors : [];
     if (this.errors.length === 0 && body.line) this.errors = [{ ...body, pointer: body.pointer ?? '' }];
     this.retryAfterS = retryAfterS;
@@ -22,30 +21,41 @@ export class Unreachable extends Error {
   }
 }
 
-async function call(path, options) {
-  let response;
+// The outcome of a part of the exchange. The connection can be lost before the answer as well as inside its body.
+async function received(part) {
   try {
-    response = await fetch(path, options);
+    return await part;
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     throw new Unreachable();
   }
+}
+
+async function call(path, options) {
+  const response = await received(fetch(path, options));
   if (response.ok) return response;
-  const body = await response.json().catch(() => ({}));
+  const body = await response.json().catch((error) => {
+    if (error.name === 'AbortError') throw error;
+    return {};
+  });
   throw new Problem(response.status, body, Number(response.headers.get('Retry-After')) || 1);
 }
 
+const jsonOf = async (answer) => received((await answer).json());
+const textOf = async (answer) => received((await answer).text());
+const blobOf = async (answer) => received((await answer).blob());
+
 export async function listScenes() {
-  return (await call('/scenes/index.json')).json();
+  return jsonOf(call('/scenes/index.json'));
 }
 
 export async function loadScene(file) {
-  return (await call(`/scenes/${encodeURIComponent(file)}`)).text();
+  return textOf(call(`/scenes/${encodeURIComponent(file)}`));
 }
 
 // `sceneText` goes as it was written, so that lines and columns of an answer are those of the editor.
 export async function openSession(sceneText) {
-  return (await call('/v1/sessions', { method: 'POST', headers: kJson, body: sceneText })).json();
+  return jsonOf(call('/v1/sessions', { method: 'POST', headers: kJson, body: sceneText }));
 }
 
 export async function closeSession(id) {
@@ -66,8 +76,13 @@ export async function nextFrame(id, after, format, signal) {
     isFinal: response.headers.get('Frame-Final') === '?1',
     spp: Number(/(?:^|[ ,])spp=(\d+)/.exec(response.headers.get('Render-Info') ?? '')?.[1] ?? 0),
     timings: parseServerTiming(response.headers.get('Server-Timing')),
-    blob: await response.blob(),
+    blob: await blobOf(response),
   };
+}
+
+// What the server would do for a whole scene document, and what that should cost; nothing is drawn.
+export async function planOf(document) {
+  return jsonOf(call('/v1/plan', { method: 'POST', headers: kJson, body: JSON.stringify(document) }));
 }
 
 // A finished picture of a whole scene document. Takes as long as it takes: a render that the server turned into a job
@@ -75,11 +90,11 @@ export async function nextFrame(id, after, format, signal) {
 export async function renderImage(document, format = 'image/png') {
   const headers = { ...kJson, Accept: format, Prefer: 'wait=60' };
   const response = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(document) });
-  if (response.status !== 202) return response.blob();
+  if (response.status !== 202) return blobOf(response);
   const job = response.headers.get('Location');
   for (;;) {
-    const status = await (await call(job, { headers: { Prefer: 'wait=30' } })).json();
-    if (status.state === 'done') return (await call(`${job}/image`, { headers: { Accept: format } })).blob();
+    const status = await jsonOf(call(job, { headers: { Prefer: 'wait=30' } }));
+    if (status.state === 'done') return blobOf(call(`${job}/image`, { headers: { Accept: format } }));
     if (status.state !== 'queued' && status.state !== 'running') {
       throw new Problem(409, { detail: status.error?.detail ?? `The render was ${status.state}.` });
     }

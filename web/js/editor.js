@@ -18,42 +18,62 @@ export class Editor {
   // `edited(text)` is called when typing rests.
   constructor({ edited }) {
     this.#area.addEventListener('input', () => {
-      this.#number();
-      this.#say('');
-      clearTimeout(this.#timer);
+      this.#changed();
       this.#timer = setTimeout(() => edited(this.#area.value), kTypingMs);
     });
     this.#area.addEventListener('scroll', () => this.#follow());
   }
 
-  // Text that is being typed in stays as it is.
-  setText(text) {
-    if (this.#area.value !== text && document.activeElement !== this.#area) {
-      clearTimeout(this.#timer);
+  get text() {
+    return this.#area.value;
+  }
+
+  // The text of a scene that is on show.
+  show(text) {
+    if (this.#area.value !== text) {
       this.#area.value = text;
       this.#area.setSelectionRange(0, 0);
       this.#area.scrollTo(0, 0);
     }
-    this.#number();
-    this.showErrors([]);
+    this.#changed();
+    this.#showErrors([]);
   }
 
-  // `errors` as the server tells them: {pointer, detail, allowed, hint, line, column}.
-  showErrors(errors) {
-    this.#area.setAttribute('aria-invalid', String(errors.length > 0));
-    this.#list.hidden = errors.length === 0;
-    this.#list.replaceChildren(...errors.map((error) => el('li', {}, this.#describe(error))));
+  // The same text with a change that was made elsewhere, to be judged like one that was typed.
+  amend(text) {
+    this.#area.value = text;
+    this.#changed();
+  }
+
+  // `errors` of `text` as the server tells them: {pointer, detail, allowed, hint, line, column}; those in `told` stand in
+  // words elsewhere. A text that has changed since waits for its own judgement.
+  judge(text, errors, told = []) {
+    if (text === this.#area.value) this.#showErrors(errors, told);
+  }
+
+  #showErrors(errors, told = []) {
+    const untold = errors.filter((error) => !told.includes(error));
+    this.#area.setAttribute('aria-invalid', String(untold.length > 0));
+    this.#list.hidden = untold.length === 0;
+    this.#list.replaceChildren(...untold.map((error) => el('li', {}, this.#describe(error))));
     this.#marks.replaceChildren(...errors.filter(({ line }) => line).flatMap((error) => this.#mark(error)));
     this.#numbers.querySelectorAll('.dot').forEach((dot) => dot.remove());
     for (const { line } of errors) if (line) this.#numbers.append(placed('span', 'dot', line));
-    const plural = errors.length === 1 ? '1 mistake' : `${errors.length} mistakes`;
-    this.#say(errors.length ? plural : 'Drawn', errors.length > 0);
+    this.#tell(['Drawn', '1 mistake'][errors.length] ?? `${errors.length} mistakes`, errors.length > 0);
     this.#follow();
   }
 
-  #say(words, isBad = false) {
-    this.#state.textContent = words;
+  #changed() {
+    clearTimeout(this.#timer);
+    this.#number();
+    this.#state.classList.add('is-old');
+  }
+
+  // A screen reader speaks when these words change, so they stay while a change is judged, out of sight.
+  #tell(words, isBad) {
+    if (this.#state.textContent !== words) this.#state.textContent = words;
     this.#state.classList.toggle('is-bad', isBad);
+    this.#state.classList.remove('is-old');
   }
 
   #describe(error) {

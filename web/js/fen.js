@@ -22,11 +22,11 @@ export class FenField {
   show(position) {
     this.#field.hidden = !position;
     if (position && document.activeElement !== this.#input) this.#input.value = position.fen;
-    this.showError(null);
+    this.showError();
   }
 
-  // `error` as the server tells it: {detail, hint}.
-  showError(error) {
+  // `error` as the server tells it, {detail, hint}; none if the position is good.
+  showError(error = null) {
     this.#input.setAttribute('aria-invalid', String(Boolean(error)));
     this.#error.textContent = error ? [error.detail, error.hint].filter(Boolean).join(' ') : '';
   }

@@ -6,7 +6,7 @@ import { byId } from './dom.js';
 import { Editor } from './editor.js';
 import { FenField } from './fen.js';
 import { Panels } from './panels.js';
-import { showPlan, showTimings } from './plan.js';
+import { showPlan, showPrediction, showTimings } from './plan.js';
 import { findPosition, sameCamera, withFen } from './scene_text.js';
 import { ScenePicker } from './scenes.js';
 import { Superseded } from './session.js';
@@ -15,6 +15,8 @@ import { showHint, Status } from './status.js';
 import { say } from './toast.js';
 import { Viewer } from './viewer.js';
 
+const kNeedScene = ['reset', 'link', 'curl', 'download'];  // these buttons mean nothing before there is a picture
+
 const status = new Status();
 const hideHint = showHint();
 const viewer = new Viewer(byId('picture'), {
@@ -22,7 +24,9 @@ const viewer = new Viewer(byId('picture'), {
   on: {
     frame: (event) => {
       status.show(event);
-      if (event.frame.isFinal && !event.moving) showTimings(byId('plan-body'), event.frame.timings);
+      if (!event.frame.isFinal || event.moving) return;
+      showTimings(byId('plan-body'), event.frame.timings);
+      foretell();
     },
     state: (name, problem) => status.state(name, problem),
     moved: hideHint,
@@ -32,25 +36,26 @@ const panels = new Panels([
   [{ button: 'scenes-button', panel: 'scenes-panel' }],
   [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' }],
 ]);
-const editor = new Editor({ edited: (text) => drawEdit(text) });
-const fenField = new FenField({ edited: (fen) => drawFen(fen) });
+const editor = new Editor({ edited: drawEdit });
+const fenField = new FenField({ edited: drawFen });
 
 // What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
 const shown = { file: null, title: 'Your scene', text: null };
+let scenes = [];
 let picker = null;
 
-// Shows a scene in place of the present one; throws what the server has against it.
-async function open(text, { file = null, title = shown.title, camera = null }) {
+// Shows the scene whose text `load()` gives in place of the present one; throws what the server has against it.
+async function open(load, { file = null, title = shown.title, isEdited = false, camera = null }) {
   status.restart();
-  const info = await viewer.open(text, camera);
-  const scene = JSON.parse(text);
-  Object.assign(shown, { file, title, text });
+  const info = await viewer.open(load, camera);
+  const scene = JSON.parse(info.text);
+  Object.assign(shown, { file, title, text: info.text });
   status.expect(scene.render);
-  byId('scene-title').textContent = file ? title : `${title}, edited`;
+  byId('scene-title').textContent = isEdited ? `${title}, edited` : title;
   byId('picture').setAttribute('aria-label', `Picture: ${title}`);
   document.title = `${title} · Tilelight`;
+  for (const name of kNeedScene) byId(`${name}-button`).disabled = false;
   picker?.mark(file);
-  editor.setText(text);
   fenField.show(findPosition(scene));
   showPlan(byId('plan-body'), info);
 }
@@ -58,10 +63,19 @@ async function open(text, { file = null, title = shown.title, camera = null }) {
 // As open(), for a scene that somebody else wrote: what goes wrong is said in the notice.
 async function openOrExplain(load, options) {
   try {
-    await open(await load(), options);
+    await open(load, options);
+    editor.show(shown.text);
   } catch (error) {
-    if (!(error instanceof Superseded)) status.broken(error.message, () => openOrExplain(load, options));
+    if (error instanceof Superseded) return;
+    status.broken(`This scene cannot be drawn: ${error.message}`, () => openOrExplain(load, options));
   }
+}
+
+// Asks what the picture on show should have cost. A question to the server for those who look at the plan only.
+async function foretell() {
+  if (byId('plan-panel').hidden || !shown.text) return;
+  const { predicted } = await api.planOf(stillDocument(shown.text, viewer.still)).catch(() => ({}));
+  if (predicted) showPrediction(byId('plan-body'), predicted);
 }
 
 function pick(scene) {
@@ -70,11 +84,11 @@ function pick(scene) {
   if (matchMedia('(max-width: 720px)').matches) panels.close('scenes-panel');
 }
 
-// Errors of a scene text that the user wrote, in the server's words; empty when it was drawn.
+// Shows what the user wrote. Returns what the server has against it, or null if something newer is under way.
 async function tryText(text) {
   const camera = shown.text && sameCamera(text, shown.text) ? viewer.camera : null;
   try {
-    await open(text, { camera });
+    await open(() => text, { camera, isEdited: true });
     return [];
   } catch (error) {
     if (error instanceof Superseded) return null;
@@ -85,16 +99,27 @@ async function tryText(text) {
 
 async function drawEdit(text) {
   const errors = await tryText(text);
-  if (errors) editor.showErrors(errors);
+  if (errors) editor.judge(text, errors);
 }
 
+// A FEN is written into the text that is being edited, whatever state that is in, so that neither is lost.
 async function drawFen(fen) {
-  const errors = await tryText(withFen(shown.text, fen));
-  if (errors) fenField.showError(errors[0]);
+  const text = withFen(editor.text, fen);
+  if (text === null) {
+    fenField.showError({ detail: 'the scene below has no position to put this in' });
+    return;
+  }
+  editor.amend(text);
+  const errors = await tryText(text);
+  if (!errors) return;
+  const inField = errors.filter(({ pointer }) => pointer.endsWith('/fen')).slice(0, 1);
+  fenField.showError(inField[0]);
+  editor.judge(text, errors, inField);
 }
 
 async function download() {
   const button = byId('download-button');
+  if (button.getAttribute('aria-busy') === 'true') return;  // one at a time: a render may take the server minutes
   button.setAttribute('aria-busy', 'true');
   try {
     const document_ = stillDocument(shown.text, viewer.still);
@@ -122,9 +147,21 @@ function copyCurl() {
   return copy(curlCommand(location.origin, stillDocument(shown.text, viewer.still)), 'curl command');
 }
 
+// Opens what the address asks for. If there is no such thing, the first scene comes as it is, and a word that it did.
+async function openLink() {
+  const { scene, text, camera, isDamaged } = await decodeLink(location.hash);
+  if (text) {
+    await openOrExplain(() => text, { title: 'Shared scene', camera });
+    return;
+  }
+  const found = scenes.find(({ file }) => file === `${scene}.json`);
+  const isLost = isDamaged || (scene !== null && !found);
+  const { file, title } = found ?? scenes[0];
+  await openOrExplain(() => api.loadScene(file), { file, title, camera: isLost ? null : camera });
+  if (isLost) say(`${isDamaged ? 'The link is damaged' : `There is no scene “${scene}”`}: this is ${title}`, 'warning');
+}
+
 async function start() {
-  const link = await decodeLink(location.hash);
-  let scenes;
   try {
     scenes = await api.listScenes();
   } catch (error) {
@@ -132,12 +169,12 @@ async function start() {
     return;
   }
   picker = new ScenePicker({ api, list: byId('scene-list'), scenes, pick });
-  const wanted = scenes.find(({ file }) => file === `${link.scene}.json`) ?? scenes[0];
-  if (link.text) await openOrExplain(() => link.text, { title: 'Shared scene', camera: link.camera });
-  else await openOrExplain(() => api.loadScene(wanted.file), { ...wanted, camera: link.camera });
+  addEventListener('hashchange', openLink);
+  await openLink();
 }
 
 byId('scenes-panel').addEventListener('panel-open', () => picker?.drawThumbnails());
+byId('plan-panel').addEventListener('panel-open', foretell);
 byId('reset-button').addEventListener('click', () => viewer.reset());
 byId('link-button').addEventListener('click', copyLink);
 byId('curl-button').addEventListener('click', copyCurl);

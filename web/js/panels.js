@@ -20,11 +20,6 @@ export class Panels {
     }
   }
 
-  open(panelId) {
-    const entry = this.#entries.find(({ panel }) => panel.id === panelId);
-    if (entry.panel.hidden) this.#open(entry);
-  }
-
   close(panelId) {
     const entry = this.#entries.find(({ panel }) => panel.id === panelId);
     if (!entry.panel.hidden) this.#close(entry);

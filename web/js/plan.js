@@ -12,19 +12,25 @@ export function showPlan(container, info) {
     block('Left out', leftOut(plan.left_out ?? [])),
     ...(info.warnings?.length ? [block('Worth a look', warnings(info.warnings))] : []),
     block('In numbers', facts(plan)),
-    el('section', { class: 'this-picture', hidden: true }),
+    el('section', { class: 'this-picture', hidden: true }, el('h3', {}, 'This picture'),
+      el('dl', { class: 'facts predicted' }), el('dl', { class: 'facts spent' })),
   );
 }
 
 // What the server spent on the picture on show: `timings` in milliseconds by name.
 export function showTimings(container, timings) {
   const place = container.querySelector('.this-picture');
-  const rows = Object.entries(timings);
-  if (!place || rows.length === 0) return;
+  const times = Object.entries(timings);
+  if (!place || times.length === 0) return;
   place.hidden = false;
-  place.replaceChildren(el('h3', {}, 'This picture'),
-    el('dl', { class: 'facts' },
-      ...rows.flatMap(([name, ms]) => [el('dt', {}, kTimingNames[name] ?? words(name)), el('dd', {}, duration(ms))])));
+  const spent = times.map(([name, ms]) => [kTimingNames[name] ?? words(name), duration(ms)]);
+  place.querySelector('.spent').replaceChildren(...rows(spent));
+}
+
+// What it should have taken with the machine to itself: {elapsed_ms, mrays}.
+export function showPrediction(container, { elapsed_ms: ms, mrays }) {
+  const rays = mrays < 1 ? 'under a million rays' : `${kCount.format(Math.round(mrays))} million rays`;
+  container.querySelector('.predicted').replaceChildren(...rows([['Predicted', `${duration(ms)}, ${rays}`]]));
 }
 
 function block(title, ...content) {
@@ -52,7 +58,7 @@ function warnings(entries) {
 }
 
 function facts(plan) {
-  const rows = [
+  return el('dl', { class: 'facts' }, ...rows([
     ['Bodies', count(plan.bodies)],
     ['Lights', count(plan.lights)],
     ['Triangles', triangles(plan.triangles)],
@@ -61,9 +67,11 @@ function facts(plan) {
     ['Instruction set', plan.isa],
     ['Compiling', duration(plan.compile_ms)],
     ['Planning', duration(plan.plan_ms)],
-  ];
-  return el('dl', { class: 'facts' },
-    ...rows.filter(([, value]) => value).flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, String(value))]));
+  ].filter(([, value]) => value)));
+}
+
+function rows(entries) {
+  return entries.flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, String(value))]);
 }
 
 function count(n) {

@@ -2,10 +2,10 @@
 // An interactive session with the server: views go out, frames come back, and the newest view wins. A moving view is
 // seen before the next one goes, so views never queue up; a still one gives way at once. A session that expired, a server
 // that is busy or cannot be reached are lived through; the last wish is kept and sent again.
-import { Problem, Unreachable } from './api.js';
+import { Problem } from './api.js';
+import { hindranceOf, waitOut } from './patience.js';
 
 export const kOverdueMs = 600;  // a moving view not seen by then is given up for a newer one
-const kBackoffMs = [500, 1000, 2000, 4000, 8000];
 
 // A later open() came before this one was answered.
 export class Superseded extends Error {}
@@ -35,11 +35,12 @@ export class ViewSession {
     this.#now = now;
   }
 
-  // Opens a scene in place of the present one, which lives on if the server refuses. Returns the server's account of
-  // it. `firstView(info)` gives the view to start with.
-  async open(text, firstView) {
+  // Opens the scene whose text `load()` gives, in place of the present one, which lives on if the server refuses. A
+  // server that is busy or out of reach is asked until it answers or another scene is wanted. Returns the server's
+  // account of it and the text. `firstView(info)` gives the view to start with.
+  async open(load, firstView) {
     const turn = ++this.#opens;
-    const info = await this.#api.openSession(text);
+    const { text, info } = await this.#insist(turn, load);
     if (turn !== this.#opens) {
       this.#discard(info.id);
       throw new Superseded();
@@ -48,7 +49,26 @@ export class ViewSession {
     this.#text = text;
     this.#adopt(info.id);
     this.look(firstView(info));
-    return info;
+    return { ...info, text };
+  }
+
+  async #insist(turn, load) {
+    for (let attempt = 0; ; ++attempt) {
+      try {
+        const text = await load();
+        return { text, info: await this.#api.openSession(text) };
+      } catch (error) {
+        if (turn !== this.#opens) throw new Superseded();
+        const hindrance = hindranceOf(error);
+        if (!hindrance) {
+          if (!this.#recovery) this.#on.state('live');  // it was reached, after all
+          throw error;
+        }
+        this.#on.state(hindrance);
+        await waitOut(error, attempt);
+        if (turn !== this.#opens) throw new Superseded();
+      }
+    }
   }
 
   look(view) {
@@ -138,15 +158,15 @@ export class ViewSession {
   // One attempt to go on after `cause`; returns what stopped it, or null when there is nothing more to try.
   async #retry(id, cause, attempt) {
     const isGone = cause instanceof Problem && (cause.status === 404 || cause.status === 410);
-    const isBusy = cause instanceof Problem && (cause.status === 429 || cause.status === 503);
-    const isAway = cause instanceof Unreachable;
-    if (!isGone && !isBusy && !isAway) {
+    const hindrance = hindranceOf(cause);
+    if (!isGone && !hindrance) {
       this.#on.state('failed', cause);
       return null;
     }
-    if (isAway) this.#on.state('offline');
-    if (isBusy) this.#on.state('busy');
-    if (!isGone) await pause(isBusy ? cause.retryAfterS * 1000 : kBackoffMs[Math.min(attempt, kBackoffMs.length - 1)]);
+    if (hindrance) {
+      this.#on.state(hindrance);
+      await waitOut(cause, attempt);
+    }
     try {
       if (isGone) {
         const info = await this.#api.openSession(this.#text);
@@ -163,17 +183,4 @@ export class ViewSession {
       return error;
     }
   }
-}
-
-// Ends early when the browser says that the network is back.
-function pause(ms) {
-  return new Promise((resolve) => {
-    const end = () => {
-      clearTimeout(timer);
-      globalThis.removeEventListener?.('online', end);
-      resolve();
-    };
-    const timer = setTimeout(end, ms);
-    globalThis.addEventListener?.('online', end);
-  });
 }

@@ -30,12 +30,12 @@ export async function encodeLink({ scene, text, camera }) {
   return `#${decodeURIComponent(parts.toString())}`;
 }
 
-// Null parts where the link has none or says something odd.
+// Null parts where the link has none or says something odd; isDamaged when it has a text that cannot be read.
 export async function decodeLink(hash) {
   const parts = new URLSearchParams(hash.replace(/^#/, ''));
   const json = parts.get('json');
-  const text = json ? await inflate(fromBase64Url(json)).catch(() => null) : null;
-  return { scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')) };
+  const text = json === null ? null : await inflate(fromBase64Url(json)).catch(() => null);
+  return { scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')), isDamaged: json !== null && !text };
 }
 
 function cameraNumbers(camera) {

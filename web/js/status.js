@@ -42,24 +42,29 @@ export class Status {
       busy: 'The server is busy. The picture comes in a moment.',
       failed: `This view cannot be drawn. ${problem?.message ?? ''}`,
     }[name];
-    byId('notice').hidden = !sentence;
-    byId('notice-text').textContent = sentence ?? '';
-    byId('notice-button').hidden = true;
+    this.#notify(sentence, name === 'failed' ? 'warning' : 'offline');
   }
 
-  // A first picture that did not come: says so and offers `retry`.
+  // A scene that did not come: says so and offers `retry`.
   broken(sentence, retry) {
-    this.state('live');
-    byId('cover').classList.add('is-gone');
-    byId('notice').hidden = false;
-    byId('notice-text').textContent = sentence;
+    const cover = byId('cover');
+    if (!cover.classList.contains('is-gone')) this.#set(0, 'No picture', '');
+    cover.classList.add('is-empty');
+    this.#notify(sentence, 'warning');
     const button = byId('notice-button');
     button.hidden = false;
     button.onclick = () => {
-      this.state('live');
+      cover.classList.remove('is-empty');
+      this.#notify();
       retry();
     };
-    this.#set(0, 'No picture', '');
+  }
+
+  #notify(sentence = '', iconName = 'offline') {
+    byId('notice').hidden = !sentence;
+    if (byId('notice-text').textContent !== sentence) byId('notice-text').textContent = sentence;  // spoken once
+    byId('notice-icon').setAttribute('href', `#icon-${iconName}`);
+    byId('notice-button').hidden = true;
   }
 
   #set(share, main, more) {

@@ -51,9 +51,9 @@ export class Viewer {
     addEventListener('pagehide', () => this.#session.close());
   }
 
-  // Shows a scene. `camera` = where to look from, instead of the scene's own camera.
-  open(sceneText, camera) {
-    return this.#session.open(sceneText, (info) => {
+  // Shows the scene whose text `load()` gives. `camera` = where to look from, instead of the scene's own camera.
+  open(load, camera) {
+    return this.#session.open(load, (info) => {
       this.#inertia.stop();
       this.#home = info.camera;
       this.#pictureAspect = info.image.width / info.image.height;

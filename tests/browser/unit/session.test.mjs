@@ -43,13 +43,14 @@ function playServer() {
   return server;
 }
 
+const kScene = async () => '{}';
 const moving = (x) => ({ camera: { x }, moving: true });
 const still = (x) => ({ camera: { x }, moving: false });
 const sentX = (server) => server.views.map(({ camera }) => camera.x);
 
 test('of many views while one is being drawn, only the newest goes out', async () => {
   const server = playServer();
-  await server.session.open('{}', () => moving(0));
+  await server.session.open(kScene, () => moving(0));
   for (let x = 1; x <= 9; ++x) server.session.look(moving(x));
   await turn();
   assert.deepEqual(sentX(server), [0]);
@@ -59,7 +60,7 @@ test('of many views while one is being drawn, only the newest goes out', async (
 
 test('a view that moves interrupts one that refines, at once', async () => {
   const server = playServer();
-  await server.session.open('{}', () => still(0));
+  await server.session.open(kScene, () => still(0));
   server.session.look(moving(1));
   await turn();
   assert.deepEqual(sentX(server), [0, 1]);
@@ -67,7 +68,7 @@ test('a view that moves interrupts one that refines, at once', async () => {
 
 test('the last small picture is seen before the full one is asked for', async () => {
   const server = playServer();
-  await server.session.open('{}', () => moving(0));
+  await server.session.open(kScene, () => moving(0));
   server.session.look(still(1));
   await turn();
   assert.deepEqual(sentX(server), [0]);
@@ -78,7 +79,7 @@ test('the last small picture is seen before the full one is asked for', async ()
 test('a moving view that never comes is given up for a newer one', async (t) => {
   t.mock.timers.enable({ apis: ['setTimeout'] });
   const server = playServer();
-  await server.session.open('{}', () => moving(0));
+  await server.session.open(kScene, () => moving(0));
   server.session.look(still(1));
   server.nowMs = kOverdueMs;
   t.mock.timers.tick(kOverdueMs);
@@ -89,7 +90,7 @@ test('a moving view that never comes is given up for a newer one', async (t) => 
 
 test('latency is told with the first frame of a view and not with its refinements', async () => {
   const server = playServer();
-  await server.session.open('{}', () => still(0));
+  await server.session.open(kScene, () => still(0));
   server.nowMs = 70;
   await server.answer(1, false);
   server.nowMs = 90;
@@ -99,7 +100,7 @@ test('latency is told with the first frame of a view and not with its refinement
 
 test('a session that is gone is opened anew and shown the newest view', async () => {
   const server = playServer();
-  await server.session.open('{}', () => still(0));
+  await server.session.open(kScene, () => still(0));
   server.failPut = new Problem(404, {});
   server.session.look(still(5));
   await turn();
@@ -112,7 +113,7 @@ test('a session that is gone is opened anew and shown the newest view', async ()
 
 test('a server out of reach is asked again, and the last wish is kept', async (t) => {
   const server = playServer();
-  await server.session.open('{}', () => still(0));
+  await server.session.open(kScene, () => still(0));
   t.mock.timers.enable({ apis: ['setTimeout'] });
   server.failPut = new Unreachable();
   server.session.look(still(5));
@@ -127,8 +128,8 @@ test('a server out of reach is asked again, and the last wish is kept', async (t
 
 test('of two scenes opened at once the later stays and the earlier is closed', async () => {
   const server = playServer();
-  const first = server.session.open('{}', () => still(0));
-  const second = server.session.open('{}', () => still(1));
+  const first = server.session.open(kScene, () => still(0));
+  const second = server.session.open(kScene, () => still(1));
   await assert.rejects(first, Superseded);
   await second;
   assert.deepEqual(server.closed, ['s1']);
@@ -137,11 +138,47 @@ test('of two scenes opened at once the later stays and the earlier is closed', a
 
 test('a scene that the server refuses leaves the one on show alone', async () => {
   const server = playServer();
-  await server.session.open('{}', () => still(0));
+  await server.session.open(kScene, () => still(0));
   server.api.openSession = async () => { throw new Problem(422, { detail: 'no' }); };
-  await assert.rejects(server.session.open('{', () => still(1)), Problem);
+  await assert.rejects(server.session.open(kScene, () => still(1)), Problem);
   server.session.look(still(2));
   await turn();
   assert.deepEqual(server.closed, []);
   assert.equal(server.views.at(-1).id, 's1');
+});
+
+test('a scene that is wanted while the server is away or busy is asked for until it comes', async (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const server = playServer();
+  const { openSession } = server.api;
+  const answers = [new Unreachable(), new Problem(503, {}, 2)];
+  server.api.openSession = async (text) => {
+    if (answers.length) throw answers.shift();
+    return openSession(text);
+  };
+  const opening = server.session.open(kScene, () => still(0));
+  await turn();
+  assert.deepEqual(server.states, ['offline']);
+  t.mock.timers.tick(500);
+  await turn();
+  assert.deepEqual(server.states, ['offline', 'busy']);
+  t.mock.timers.tick(2000);
+  assert.equal((await opening).text, '{}');
+  assert.equal(server.states.at(-1), 'live');
+  assert.deepEqual(sentX(server), [0]);
+});
+
+test('a scene that waits for the server gives way to one that is wanted later', async (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const server = playServer();
+  const { openSession } = server.api;
+  server.api.openSession = async () => { throw new Unreachable(); };
+  const first = server.session.open(kScene, () => still(0));
+  await turn();
+  server.api.openSession = openSession;
+  await server.session.open(kScene, () => still(1));
+  t.mock.timers.tick(500);
+  await assert.rejects(first, Superseded);
+  assert.equal(server.opened, 1);
+  assert.deepEqual(sentX(server), [1]);
 });

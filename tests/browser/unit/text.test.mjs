@@ -30,6 +30,17 @@ test('a position without a FEN gets one', () => {
   assert.equal(findPosition(JSON.parse(withFen(text, '8/8/8/8/8/8/8/8'))).fen, '8/8/8/8/8/8/8/8');
 });
 
+test('a FEN goes into a text that is still being written, and nothing else changes', () => {
+  const draft = kText.replace('{"type": "sphere"}', '{"type": "sphere", "rad');
+  assert.equal(withFen(draft, '8/8/8/8/8/8/8/K6k'), draft.replace(kStart, '8/8/8/8/8/8/8/K6k'));
+});
+
+test('a text without a position has no place for a FEN', () => {
+  for (const text of ['{"objects": [{"type": "sphere"}]}', '{"objects": [', '{"objects": 3}', 'null', '']) {
+    assert.equal(withFen(text, '8/8/8/8/8/8/8/8'), null);
+  }
+});
+
 test('an edit keeps the camera unless it is the camera that was edited', () => {
   assert.ok(sameCamera(kText, kText.replace('sphere', 'cube')));
   assert.ok(!sameCamera(kText, kText.replace('[1, 2, 3]', '[1, 2, 4]')));
@@ -53,9 +64,14 @@ test('a link brings back scene, text and camera', async () => {
   assert.deepEqual((await decodeLink(await encodeLink({ scene: 'x', camera: flat }))).camera, flat);
 });
 
-test('a broken link is no link', async () => {
-  for (const hash of ['', '#', '#json=%%%', '#json=AAAA', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
-    assert.deepEqual(await decodeLink(hash), { scene: null, text: null, camera: null });
+test('a broken link is no link, and one with a text that cannot be read is known as damaged', async () => {
+  const nothing = { scene: null, text: null, camera: null, isDamaged: false };
+  for (const hash of ['', '#', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
+    assert.deepEqual(await decodeLink(hash), nothing);
+  }
+  const whole = await encodeLink({ text: kText });
+  for (const hash of ['#json=%%%', '#json=AAAA', '#json=', whole.slice(0, whole.length / 2)]) {
+    assert.deepEqual(await decodeLink(hash), { ...nothing, isDamaged: true });
   }
 });
 
