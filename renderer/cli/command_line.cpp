@@ -127,6 +127,20 @@ void add_chess(CLI::App& app, Run& run) {
   });
 }
 
+void add_check(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand("check", "Run the stress catalogue: hard scenes with known answers");
+  command->add_option("--only", options->only, "Rows by id or by letter: S4,T1,D")->delimiter(',');
+  command->add_flag("--quick", options->is_quick, "Smaller images and fewer rays: seconds in place of minutes");
+  command->add_flag("--json", options->json, "As a JSON object");
+  command->add_option("--threads", options->threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
+  add_isa_option(*command, options->isa);
+  command->footer(
+      "Each row measures ours against its bound, and the naive form of textbooks, which has to break it.\n"
+      "Examples:\n  tilelight check\n  tilelight check --only S4,T1 --json | jq .rows");
+  command->callback([options, &run] { run = [options] { return run_check(*options); }; });
+}
+
 void add_schema(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of the scene language");
   command->footer("Example:\n  tilelight schema > scene.schema.json");
@@ -151,12 +165,13 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_render(app, run);
   add_plan(app, run);
   add_chess(app, run);
+  add_check(app, run);
   add_schema(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
-      std::fprintf(stderr, "tilelight: no command is called '%s'; there are render, plan, chess and schema\n",
+      std::fprintf(stderr, "tilelight: no command is called '%s'; there are render, plan, chess, check and schema\n",
                    words[0].c_str());
       return kBadInput;
     }

@@ -30,4 +30,14 @@ struct PlanArguments {
 };
 ExitCode run_plan(const SceneText& source, const PlanArguments& arguments);
 
+struct CheckArguments {
+  std::vector<std::string> only;  // ids of rows, or their letters; empty: all
+  bool is_quick = false;
+  bool json = false;
+  int threads = 0;
+  std::string isa = "auto";
+};
+// kFailed if a row fails.
+ExitCode run_check(const CheckArguments& arguments);
+
 }  // namespace tilelight::cli
