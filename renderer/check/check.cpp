@@ -9,7 +9,7 @@ namespace tilelight::check {
 std::vector<Row> catalogue() {
   std::vector<Row> rows;
   for (const auto group : {sphere_rows, box_rows, triangle_rows, invariance_rows, camera_rows, light_rows,
-                           neighbour_rows, bounce_rows, input_rows, determinism_rows}) {
+                           neighbour_rows, terminator_rows, bounce_rows, input_rows, determinism_rows}) {
     const std::span<const Row> some = group();
     rows.insert(rows.end(), some.begin(), some.end());
   }

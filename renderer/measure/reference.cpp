@@ -89,7 +89,7 @@ class Sample {
     if (path.kind == ReferenceRayKind::primary) pixel_.primary_id = surface_id(hit->body, hit->primitive);
     const ReferenceBody& body = scene_.body(hit->body);
     const ShadingPoint at = shading_point(body, *hit, path.ray.direction);
-    pixel_.color += path.weight * local_light(scene_, at, render_.shadows);
+    pixel_.color += path.weight * local_light(scene_, at, render_);
     note_checker(path, *hit);
     spawn(path, at);
   }

@@ -236,6 +236,21 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit) {
   return s;
 }
 
+std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, bool is_inside) {
+  if (body.kind != BodyKind::mesh || body.mesh->mesh->corner_normals.empty()) return std::nullopt;
+  const TriMesh& mesh = *body.mesh->mesh;
+  const auto& vertices = corners(mesh, hit.primitive);
+  const auto& normals = mesh.corner_normals[hit.primitive];
+  Vec3 mixed(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 off = hit.local - mesh.positions[vertices[i]];
+    const double height = glm::dot(off, normals[i]) * (is_inside ? -1.0 : 1.0);  // of the facet over the plane
+    const Vec3 projected = off - std::min(0.0, height) * (is_inside ? -normals[i] : normals[i]);
+    mixed += hit.barycentric[i] * (projected - off);
+  }
+  return body.world_from_local * mixed;
+}
+
 PatternPoint pattern_at(const ReferenceBody& body, const Hit& hit) {
   const Vec3 point = transform_point(body.pattern_from_local, hit.local);
   if (body.kind == BodyKind::sphere) return {point, -1};

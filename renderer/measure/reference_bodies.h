@@ -74,6 +74,11 @@ struct SurfacePoint {
   Vec3 shading;    // interpolated on meshes with vertex normals
 };
 SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit);
+
+// Meshes with vertex normals stand for a curved surface. How far above the facet that surface is taken to be, seen from
+// outside or from inside: each corner's tangent plane is asked, and the answers mixed as the normals are (Hanika 2021,
+// Ray Tracing Gems II ch. 4). A world vector; none on other surfaces.
+std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, bool is_inside);
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit);
 
 // The colour's place in the body's checker: the pattern point, and the axis that does not count (-1: all three do).

@@ -41,6 +41,18 @@ std::optional<Incidence> incidence(const Light& light, const Vec3& point, const 
 
 bool is_odd(double whole) { return whole - 2.0 * std::floor(0.5 * whole) == 1.0; }
 
+// How much of the light comes to a point that lies `lift` above the surface.
+Color visible_part(const ReferenceScene& scene, const ShadingPoint& at, const Light& light, const Incidence& in,
+                   const Vec3& lift) {
+  Ray ray = scene.ray_from(at.hit, in.to_light, Coincident::before);
+  if (lift == Vec3(0.0)) return scene.transmittance(ray, in.distance);
+  ray.origin += lift;
+  if (light.kind == LightKind::directional) return scene.transmittance(ray, in.distance);
+  const Vec3 way = light.position - ray.origin;
+  ray.direction = glm::normalize(way);
+  return scene.transmittance(ray, glm::length(way));
+}
+
 }  // namespace
 
 ShadingPoint shading_point(const ReferenceBody& body, const Hit& hit, const Vec3& direction) {
@@ -66,14 +78,16 @@ Color paint_at(const ReferenceBody& body, const Hit& hit, const Paint& paint) {
   return is_odd(sum) ? checker.b : checker.a;
 }
 
-Color local_light(const ReferenceScene& scene, const ShadingPoint& at, bool shadows) {
+Color local_light(const ReferenceScene& scene, const ShadingPoint& at, const RenderSpec& render) {
   const ReferenceBody& body = scene.body(at.hit.body);
   const Material& material = scene.material(at.hit.body);
   const Color kd = paint_at(body, at.hit, material.diffuse);
+  const std::optional<Vec3> lift =
+      render.terminator == Terminator::smooth ? lift_to_curve(body, at.hit, at.is_inside) : std::nullopt;
   Color sum = scene.ambient() * paint_at(body, at.hit, material.ambient);
   for (const Light& light : scene.lights()) {
     const auto in = incidence(light, at.point, scene.attenuation());
-    if (!in || glm::dot(at.geometric, in->to_light) <= 0.0) continue;  // it faces away: in its own shadow
+    if (!in || (!lift && glm::dot(at.geometric, in->to_light) <= 0.0)) continue;  // it faces away: in its own shadow
     const double n_l = glm::dot(at.shading, in->to_light);
     if (n_l <= 0.0) continue;
     Color reflected = kd * n_l;
@@ -82,10 +96,7 @@ Color local_light(const ReferenceScene& scene, const ShadingPoint& at, bool shad
       reflected += material.specular * phong_lobe(mirrored, at.to_viewer, material.shininess);
     if (glm::all(glm::equal(reflected, Color(0.0)))) continue;
     Color visible(1.0);
-    if (shadows && light.shadow) {
-      const Ray ray = scene.ray_from(at.hit, in->to_light, Coincident::before);
-      visible = scene.transmittance(ray, in->distance);
-    }
+    if (render.shadows && light.shadow) visible = visible_part(scene, at, light, *in, lift.value_or(Vec3(0.0)));
     sum += visible * light.color * light.intensity * in->factor * reflected;
   }
   return sum;

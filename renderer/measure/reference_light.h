@@ -26,7 +26,7 @@ double phong_lobe(const Vec3& r, const Vec3& v, double n);
 Color paint_at(const ReferenceBody& body, const Hit& hit, const Paint& paint);
 
 // Ia ka + sum of vis Il (kd N.L + ks (R.V)^n) / (d + K), linear RGB.
-Color local_light(const ReferenceScene& scene, const ShadingPoint& at, bool shadows);
+Color local_light(const ReferenceScene& scene, const ShadingPoint& at, const RenderSpec& render);
 
 Color background_at(const Background& background, const Vec3& direction);
 

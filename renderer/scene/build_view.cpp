@@ -84,6 +84,7 @@ RenderSpec build_render(Value value, const Limits& limits, Problems& problems) {
   RenderSpec render;
   render.algorithm = read_word(value, "algorithm", kAlgorithms, render.algorithm);
   render.shading = read_word(value, "shading", kShadings, render.shading);
+  render.terminator = read_word(value, "terminator", kTerminators, render.terminator);
   render.shadows = read_boolean(value, "shadows", render.shadows);
   render.max_depth = std::min(read_int(value, "max_depth", render.max_depth), limits.max_depth);
   render.weight_cutoff = read_number(value, "weight_cutoff", render.weight_cutoff);

@@ -157,10 +157,15 @@ struct ImageSpec {
 enum class Algorithm { raytrace };
 enum class Shading { phong };
 
+// Where the light ends on a mesh with interpolated normals: on the smooth surface that it stands for, or facet by
+// facet.
+enum class Terminator { smooth, exact };
+
 struct RenderSpec {
   Algorithm algorithm = Algorithm::raytrace;
   Shading shading = Shading::phong;
   bool shadows = true;
+  Terminator terminator = Terminator::smooth;
   int max_depth = 8;             // secondary rays in a row; 0 = local light only
   double weight_cutoff = 0.002;  // a path of less weight is not followed
   int ray_budget = 4096;         // rays a pixel sample

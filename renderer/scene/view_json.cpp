@@ -36,6 +36,7 @@ json to_json(const RenderSpec& render) {
   json out = {{"algorithm", get_word(kAlgorithms, render.algorithm)},
               {"shading", get_word(kShadings, render.shading)},
               {"shadows", render.shadows},
+              {"terminator", get_word(kTerminators, render.terminator)},
               {"max_depth", render.max_depth},
               {"weight_cutoff", render.weight_cutoff},
               {"ray_budget", render.ray_budget},

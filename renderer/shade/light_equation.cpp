@@ -13,9 +13,12 @@ namespace {
 double attenuation_factor(const CompiledScene& scene, double distance) {
   const double d = distance * scene.units;
   switch (scene.attenuation.mode) {
-    case AttenuationMode::linear: return 1.0 / (d + scene.attenuation.k);
-    case AttenuationMode::inverse_square: return 1.0 / (d * d + scene.attenuation.k);
-    case AttenuationMode::none: return 1.0;
+    case AttenuationMode::linear:
+      return 1.0 / (d + scene.attenuation.k);
+    case AttenuationMode::inverse_square:
+      return 1.0 / (d * d + scene.attenuation.k);
+    case AttenuationMode::none:
+      return 1.0;
   }
   return 1.0;
 }
@@ -31,7 +34,7 @@ double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess)
 }
 
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
-                         const Vec3& to_viewer) {
+                         const Vec3& to_viewer, bool is_rounded) {
   LightSample out;
   double factor = 1.0;
   if (light.kind == LightKind::directional) {
@@ -45,7 +48,7 @@ LightSample sample_light(const CompiledScene& scene, const CompiledLight& light,
     factor = attenuation_factor(scene, out.distance);
   }
   const double cosine = glm::dot(surface.normal, out.to_light);
-  if (!(cosine > 0.0) || !(glm::dot(surface.geometric_normal, out.to_light) > 0.0)) return out;
+  if (!(cosine > 0.0) || !(is_rounded || glm::dot(surface.geometric_normal, out.to_light) > 0.0)) return out;
   out.is_lit = true;
   out.arriving = light.intensity * factor;
   out.diffuse = out.arriving * surface.diffuse * cosine;

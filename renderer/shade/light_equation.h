@@ -11,21 +11,22 @@
 
 namespace tilelight {
 
-// max(0, R.V)^n for unit R and V: exp(n * log1p(-|R-V|^2 / 2)), which keeps the digits that pow(dot, n) loses for large n.
-// 0 where R.V <= 0, also for n = 0.
+// max(0, R.V)^n for unit R and V: exp(n * log1p(-|R-V|^2 / 2)), which keeps the digits that pow(dot, n) loses for large
+// n. 0 where R.V <= 0, also for n = 0.
 double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess);
 
 // What a light brings to a point of a surface before it is known whether something stands between.
 struct LightSample {
-  Vec3 to_light{0.0};      // unit
-  double distance = 0.0;   // normalised units; infinite for a directional light
-  Color arriving{0.0};     // Il / (d + K)
-  Color diffuse{0.0};      // arriving * kd * N.L
-  Color specular{0.0};     // arriving * ks * (R.V)^n
-  bool is_lit = false;     // on the light's side of the geometric and of the shading normal
+  Vec3 to_light{0.0};     // unit
+  double distance = 0.0;  // normalised units; infinite for a directional light
+  Color arriving{0.0};    // Il / (d + K)
+  Color diffuse{0.0};     // arriving * kd * N.L
+  Color specular{0.0};    // arriving * ks * (R.V)^n
+  bool is_lit = false;    // on the light's side of the shading normal, and of the facet if that ends the light
 };
+// is_rounded: the light ends where the shading normal turns away from it, whatever the facet says.
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
-                         const Vec3& to_viewer);
+                         const Vec3& to_viewer, bool is_rounded);
 
 // The sky, mixed by the height of the unit ray direction.
 inline Color background_color(const Background& background, const Vec3& direction) {

@@ -95,12 +95,28 @@ Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit)
   out.position = transform_point(body.world_from_local, local.position);
   out.geometric_normal = glm::normalize(body.world_from_normal * local.geometric);
   out.normal = glm::normalize(body.world_from_normal * local.shading);
+  out.is_rounded = body.kind == BodyKind::mesh && !body.mesh->corner_normals.empty();
   out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
   if (!out.from_outside) out.geometric_normal = -out.geometric_normal;
   if (glm::dot(out.normal, out.geometric_normal) < 0.0) out.normal = -out.normal;
   out.ambient = paint_color(out.material->source.ambient, body, local);
   out.diffuse = paint_color(out.material->source.diffuse, body, local);
   return out;
+}
+
+Vec3 rounded_position(const Surface& surface, const Hit& hit) {
+  const CompiledBody& body = *surface.body;
+  const CompiledMesh& mesh = *body.mesh;
+  const auto &corner = mesh.triangles[hit.prim], &normal = mesh.corner_normals[hit.prim];
+  const double weight[3] = {hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1};
+  Vec3 facet(0.0), lift(0.0);
+  for (int i = 0; i < 3; ++i) facet += weight[i] * mesh.positions[corner[i]];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 n = surface.from_outside ? mesh.normals[normal[i]] : -mesh.normals[normal[i]];
+    const double under = glm::dot(mesh.positions[corner[i]] - facet, n);  // the tangent plane at the corner
+    if (under > 0.0) lift += weight[i] * under * n;
+  }
+  return surface.position + transform_vector(body.world_from_local, lift);
 }
 
 }  // namespace tilelight

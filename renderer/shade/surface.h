@@ -11,13 +11,19 @@ struct Surface {
   Vec3 position{0.0};          // normalised world, reprojected onto the primitive
   Vec3 geometric_normal{0.0};  // unit, towards the viewer
   Vec3 normal{0.0};            // for shading: unit, on the side of the geometric one
+  bool is_rounded = false;     // a facet with interpolated normals: it stands for a curved surface
   bool from_outside = true;    // the ray meets the outer side: sign of Ng . d
   const CompiledBody* body = nullptr;
   const CompiledMaterial* material = nullptr;
   Color ambient{0.0}, diffuse{0.0};  // at this place
-  Departure here;              // for rays that leave from here
+  Departure here;                    // for rays that leave from here
 };
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
+
+// Where shadow rays start on a rounded surface: off the facet, on the curved surface, which is taken from the tangent
+// planes at the corners (Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4). Never under the facet.
+// REQUIRES: surface.is_rounded, and the hit it was made from.
+Vec3 rounded_position(const Surface& surface, const Hit& hit);
 
 }  // namespace tilelight

@@ -161,20 +161,19 @@ class TileKernel {
     const Color ambient = scene_.ambient * surface.ambient;
     radiance_[path.sample] += path.weight * ambient;
     if constexpr (kCan.listens) listen(ray, path, hit, &surface, ambient);
-    light(ray, path, surface);
+    light(ray, path, surface, hit);
     if constexpr (kCan.mirrors) scatter(ray, path, surface);
   }
 
-  void light(const Ray& ray, const Path& path, const Surface& surface) {
+  void light(const Ray& ray, const Path& path, const Surface& surface, const Hit& hit) {
+    const bool is_rounded = surface.is_rounded && spec_.terminator == Terminator::smooth;
+    const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
     for (const CompiledLight& source : scene_.lights) {
-      const LightSample sample = sample_light(scene_, source, surface, -ray.direction);
+      const LightSample sample = sample_light(scene_, source, surface, -ray.direction, is_rounded);
       Color seen(0.0);
       if (sample.is_lit) {
         const Color arriving = path.weight * (sample.diffuse + sample.specular);
-        // A surface that the light itself lies on does not hide it: the ray ends before, by the rounding of the
-        // distance.
-        const BoundedRay shadow{{surface.position, sample.to_light, surface.here, Coincident::before},
-                                sample.distance * (1.0 - 0x1p-40)};
+        const BoundedRay shadow = shadow_ray(source, sample, surface, start);
         seen = Color(1.0);
         if (!(kCan.shadows && source.shadow && spec_.shadows)) {
           radiance_[path.sample] += arriving;
@@ -186,6 +185,20 @@ class TileKernel {
       }
       if constexpr (kCan.listens) job_.listener->on_light(source, sample, seen);
     }
+  }
+
+  // From `start`, the surface's place or, where it is rounded, somewhat above it. A surface that the light itself lies
+  // on does not hide it: the ray ends before, by the rounding of the distance.
+  static BoundedRay shadow_ray(const CompiledLight& source, const LightSample& sample, const Surface& surface,
+                               const Vec3& start) {
+    Vec3 to_light = sample.to_light;
+    double distance = sample.distance;
+    if (source.kind == LightKind::point && start != surface.position) {
+      to_light = source.position - start;
+      distance = glm::length(to_light);
+      to_light /= distance;
+    }
+    return {{start, to_light, surface.here, Coincident::before}, distance * (1.0 - 0x1p-40)};
   }
 
   // visible_[i], by channel: 0 behind something opaque, else the product of kt of the transparent surfaces that

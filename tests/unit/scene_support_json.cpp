@@ -20,7 +20,7 @@ std::string_view full_document() {
   "camera": {"type": "perspective", "position": [4,5,9], "target": [0,0.5,0], "up": [0,1,0], "fov_y_deg": 40},
   "image": {"width": 1280, "height": 720, "exposure": 0},
   "render": {"algorithm": "raytrace", "shading": "phong", "shadows": true, "max_depth": 8, "weight_cutoff": 0.002,
-             "ray_budget": 4096, "terminator": "exact", "filter": "box", "tessellate": false, "samples": 16,
+             "ray_budget": 4096, "terminator": "smooth", "filter": "box", "tessellate": false, "samples": 16,
              "time_ms": 5000, "passes": [1, 1, 2], "seed": 0},
   "background": {"bottom": [0.9,0.9,0.95], "top": "#87a9ff"},
   "ambient": 0.12,
