@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_rays: rays a second for primary rays, shadow rays and whole frames of a scene, each beside the same work on the
-// plainest instruction set, and where the time of one request goes. Figures are medians of several rounds, the two sides of
-// a ratio taken in turn.
+// plainest instruction set, and where the time of one request goes. Figures are medians of several rounds, the two
+// sides of a ratio taken in turn.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -19,6 +20,7 @@
 #include "renderer/shade/surface.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/trace_rays.h"
+#include "tests/bench/naive_rays.h"
 
 namespace tilelight {
 namespace {
@@ -65,7 +67,7 @@ Batches shadow_rays(const CompiledScene& scene, const Batches& primary) {
       if (!hits[i].is_hit()) continue;
       const Surface surface = make_surface(scene, rays[i].ray, hits[i]);
       for (const CompiledLight& light : scene.lights) {
-        const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction);
+        const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction, surface.is_rounded);
         if (sample.is_lit && light.shadow) {
           out.push_back({{surface.position, sample.to_light, surface.here}, sample.distance});
         }
@@ -99,8 +101,59 @@ void print_row(const Row& row, int rounds, const std::string& plain) {
   }
   (void)select_isa("auto");
   const double mrays = static_cast<double>(row.rays) * 1e-6;
-  std::printf("%-14s %9.2f %10.1f %12.2f %16.2f %9.2fx\n", row.name, mrays, 1e3 * median(best_s), mrays / median(best_s),
-              mrays / median(plain_s), median(ratio));
+  std::printf("%-14s %9.2f %10.1f %12.2f %16.2f %9.2fx\n", row.name, mrays, 1e3 * median(best_s),
+              mrays / median(best_s), mrays / median(plain_s), median(ratio));
+}
+
+// What exactness costs: ours, naive, ours, naive, ... on the same rays of the same scene; and how many answers the
+// naive kernels get wrong.
+void print_robustness(const CompiledScene& scene, const Batches& primary, const Batches& shadow, TilePool& pool,
+                      int rounds) {
+  const auto each = [&](const Batches& batches, const std::function<void(const std::vector<BoundedRay>&)>& trace) {
+    pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
+                      [&](int64_t i) { trace(batches[static_cast<size_t>(i)]); });
+  };
+  const auto closest = [&](auto trace) {
+    return [&, trace](const std::vector<BoundedRay>& rays) {
+      std::vector<Hit> hits(rays.size());
+      trace(scene, rays, hits);
+    };
+  };
+  const auto any = [&](auto trace) {
+    return [&, trace](const std::vector<BoundedRay>& rays) {
+      std::vector<uint8_t> is_blocked(rays.size());
+      trace(scene, rays, is_blocked);
+    };
+  };
+  std::atomic<int64_t> wrong_ids = 0, wrong_shadows = 0;
+  each(primary, [&](const std::vector<BoundedRay>& rays) {
+    std::vector<Hit> ours(rays.size()), naive(rays.size());
+    trace_closest(scene, rays, ours);
+    naive_closest(scene, rays, naive);
+    for (size_t i = 0; i < rays.size(); ++i)
+      wrong_ids += ours[i].body != naive[i].body || ours[i].prim != naive[i].prim;
+  });
+  each(shadow, [&](const std::vector<BoundedRay>& rays) {
+    std::vector<uint8_t> ours(rays.size()), naive(rays.size());
+    trace_any(scene, rays, ours);
+    naive_any(scene, rays, naive);
+    for (size_t i = 0; i < rays.size(); ++i) wrong_shadows += ours[i] != naive[i];
+  });
+  std::printf("\n%-14s %12s %16s %18s %14s\n", "robustness", "ours ms", "naive float ms", "ours over naive",
+              "naive wrong");
+  const auto row = [&](const char* name, const Batches& batches, const auto& ours, const auto& naive, int64_t wrong) {
+    std::vector<double> ours_s, naive_s, ratio;
+    for (int i = 0; i < rounds; ++i) {
+      ours_s.push_back(seconds_of([&] { each(batches, ours); }));
+      naive_s.push_back(seconds_of([&] { each(batches, naive); }));
+      ratio.push_back(ours_s.back() / naive_s.back());
+    }
+    std::printf("%-14s %12.1f %16.1f %17.2fx %13.4f%%\n", name, 1e3 * median(ours_s), 1e3 * median(naive_s),
+                median(ratio),
+                100.0 * static_cast<double>(wrong) / static_cast<double>(std::max<int64_t>(1, count(batches))));
+  };
+  row("primary", primary, closest(trace_closest), closest(naive_closest), wrong_ids);
+  row("shadow", shadow, any(trace_any), any(naive_any), wrong_shadows);
 }
 
 struct Stage {
@@ -116,7 +169,7 @@ void print_stages(const std::vector<Stage>& stages) {
   std::printf("%-14s %10.2f\n", "request", total);
 }
 
-int run(const std::string& path, int rounds, int threads) {
+int run(const std::string& path, int rounds, int threads, bool robustness) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   TilePool pool(threads);
@@ -151,9 +204,8 @@ int run(const std::string& path, int rounds, int threads) {
 
   const std::string plain = available_isas().back();
   std::printf("%s, %dx%d, 1 sample a pixel, %lld triangles, kernel %s, %s, %d threads; median of %d rounds\n\n",
-              path.c_str(), view.image.width, view.image.height,
-              static_cast<long long>(plan.plan.triangles_instanced), plan.plan.kernel.c_str(), plan.plan.isa.c_str(),
-              pool.thread_count(), rounds);
+              path.c_str(), view.image.width, view.image.height, static_cast<long long>(plan.plan.triangles_instanced),
+              plan.plan.kernel.c_str(), plan.plan.isa.c_str(), pool.thread_count(), rounds);
   std::printf("%-14s %9s %10s %12s %16s %10s\n", "rays", "Mrays", "ms", "Mrays/s", ("on " + plain).c_str(), "ratio");
   const Batches primary = primary_rays(plan);
   const Batches shadow = shadow_rays(*scene, primary);
@@ -161,6 +213,10 @@ int run(const std::string& path, int rounds, int threads) {
     pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
                       [&](int64_t i) { trace(batches[static_cast<size_t>(i)]); });
   };
+  if (robustness) {
+    print_robustness(*scene, primary, shadow, pool, rounds);
+    return 0;
+  }
   print_row({"primary", count(primary),
              [&] {
                each_batch(primary, [&](const std::vector<BoundedRay>& rays) {
@@ -192,6 +248,8 @@ int main(int argc, char** argv) {
   app.add_option("scene", path, "Scene file")->check(CLI::ExistingFile)->capture_default_str();
   app.add_option("--rounds", rounds, "Rounds of each measurement")->check(CLI::Range(1, 100))->capture_default_str();
   app.add_option("--threads", threads, "Threads; 0: one a core")->check(CLI::Range(0, 1024))->capture_default_str();
+  bool robustness = false;
+  app.add_flag("--robustness", robustness, "What exactness costs: beside float kernels without the care for numbers");
   CLI11_PARSE(app, argc, argv);
-  return tilelight::run(path, rounds, threads);
+  return tilelight::run(path, rounds, threads, robustness);
 }
