@@ -187,6 +187,45 @@ TEST_F(Compile, AnUpVectorAlongTheViewFallsBackToAnOrthonormalFrame) {
   EXPECT_FALSE(is_up_along_view(camera));
 }
 
+// From 1e12 radii away the rounding of the eye is 1e-4; between two pixels' rays lies 1e-6 all the same.
+TEST_F(Compile, RaysOfAFarEyeStartJustBeforeTheBodies) {
+  Camera camera;
+  camera.target = {0.1, 0.2, 0.3};
+  const Vec3 back = glm::normalize(Vec3(1, 2, 3));
+  camera.position = camera.target + 1e12 * back;
+  camera.fov_y_deg = 2e-4 / 1e12 * 180.0 / 3.14159265358979323846;  // a picture of height 2e-4 at the target
+  Eye eye = make_eye(camera, 200, 200, Vec3(0.0), 1.0);
+  start_near_bodies(eye, camera.target, 200, 200, {});
+  EXPECT_NEAR(glm::length(eye_ray(eye, 100, 100).origin), 2.0, 0.1);
+  for (const double x : {0.0, 57.0, 199.0}) {
+    const EyeRay ray = eye_ray(eye, x, 100.0), next = eye_ray(eye, x + 1.0, 100.0);
+    EXPECT_NEAR(glm::length(next.origin - ray.origin), 1e-6, 1e-14);
+    EXPECT_NEAR(glm::length(ray.direction + back), 0.0, 1e-14);
+  }
+  const Vec3 middle = eye_ray(eye, 100, 100).origin - camera.target;
+  EXPECT_NEAR(glm::length(middle - glm::dot(middle, back) * back), 0.0, 1e-14);  // on the axis
+}
+
+TEST_F(Compile, RaysOfAFarEyeStartInItWhereAPlaneLiesBetween) {
+  Scene scene = one_sphere();
+  View view;
+  view.image = {32, 32, 0.0};
+  view.camera = Camera{};
+  view.camera->position = {0, 5e4, 1e5};
+  view.camera->fov_y_deg = 1e-3;
+  const auto is_at_eye = [&] {
+    const Eye eye = plan_view(*compile_scene(scene, pool_), view, "").eye;
+    return eye.start == eye.origin;
+  };
+  EXPECT_FALSE(is_at_eye());
+  Object plane;
+  plane.shape = PlaneShape{Vec3(0, -1, 0), Vec3(0, 1, 0)};
+  scene.objects.push_back(plane);
+  EXPECT_FALSE(is_at_eye());  // the plane lies behind the bodies
+  scene.objects.back().shape = PlaneShape{Vec3(0, 1e4, 0), Vec3(0, 1, 0)};
+  EXPECT_TRUE(is_at_eye());
+}
+
 // Moving by whole numbers below 2^53 is exact, so nothing may change, not even the part of a mesh's place that comes
 // from its own middle.
 TEST_F(Compile, AMeshFarFromTheOriginKeepsItsPlaceAmongTheOthers) {
