@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <glm/gtc/matrix_access.hpp>
+
 #include "renderer/base/elementary.h"
 #include "renderer/compile/passes.h"
 
@@ -83,6 +85,11 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
   out.camera = view.camera ? *view.camera : framed_camera(scene, view.image.width, view.image.height);
   out.view.camera = out.camera;
   out.eye = make_eye(out.camera, view.image.width, view.image.height, scene.center, scene.units);
+  std::vector<Vec4> planes;
+  for (size_t i = scene.finite_bodies; i < scene.bodies.size(); ++i)
+    planes.push_back(glm::row(scene.bodies[i].local_from_world, 1));  // y = 0 in its own space
+  start_near_bodies(out.eye, (out.camera.target - scene.center) / scene.units, view.image.width, view.image.height,
+                    planes);
   const auto leave_out = [&](Feature feature, const char* why) {
     if (!out.features.has(feature)) return;
     out.features.remove(feature);

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/compile/eye.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/safe_length.h"
 
 namespace tilelight {
 namespace {
-
-// Scaled by the largest component first: eye and target may be 1e-30 or 1e+30 apart.
-Vec3 safe_normalize(const Vec3& v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return glm::normalize(v / largest);
-}
 
 Vec3 least_aligned_axis(const Vec3& forward) {
   int axis = 0;
@@ -48,8 +42,28 @@ Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, do
   eye.step_x = right * px;
   eye.step_y = up * -px;
   eye.corner = up * half_height - right * (0.5 * width * px);
-  if (is_perspective) eye.corner += eye.forward;
+  eye.start = eye.origin;
+  eye.lead = is_perspective ? 0.0 : 1.0;
   return eye;
+}
+
+void start_near_bodies(Eye& eye, const Vec3& target, int width, int height, std::span<const Vec4> planes) {
+  constexpr double kFar = 0x1p10;  // nearer than this the rounding of a start is under 2^-43 of the bodies
+  constexpr double kReach = 2.0;   // no body is farther from the centre
+  if (!(glm::length(eye.origin) > kFar) || !(glm::dot(-eye.origin, eye.forward) > kReach)) return;
+  const Vec3& known = glm::length(target) < glm::length(eye.origin) ? target : eye.origin;
+  Eye near = eye;
+  near.start = known + (-glm::dot(known, eye.forward) - kReach) * eye.forward;
+  if (eye.projection == Projection::perspective) near.lead = glm::dot(near.start - eye.origin, eye.forward);
+  // A plane that lies between the rays' old and new starts has them on two sides somewhere at the picture's corners.
+  for (const Vec4& plane : planes) {
+    const auto is_above = [&](const Vec3& p) { return glm::dot(Vec3(plane), p) + plane.w > 0.0; };
+    for (int corner = 0; corner < 4; ++corner) {
+      const double x = corner & 1 ? width : 0.0, y = corner & 2 ? height : 0.0;
+      if (is_above(eye_ray(eye, x, y).origin) != is_above(eye_ray(near, x, y).origin)) return;
+    }
+  }
+  eye = near;
 }
 
 }  // namespace tilelight

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "renderer/base/safe_length.h"
 #include "renderer/compile/compiled_mesh.h"
 #include "renderer/compile/normalise.h"
 #include "renderer/compile/passes.h"
@@ -40,7 +42,7 @@ Box bounds_in(const CompiledBody& body, const Mat4& to) {
   if (body.kind == BodyKind::sphere) {
     // Half extent along an axis: the length of the matrix's row.
     Vec3 half;
-    for (int axis = 0; axis < 3; ++axis) half[axis] = glm::length(Vec3(to[0][axis], to[1][axis], to[2][axis]));
+    for (int axis = 0; axis < 3; ++axis) half[axis] = safe_length({to[0][axis], to[1][axis], to[2][axis]});
     box.grow(Vec3(to[3]) - half);
     box.grow(Vec3(to[3]) + half);
   } else {
@@ -53,10 +55,10 @@ double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center
   double radius = 0.0;
   if (body.kind == BodyKind::sphere) {
     double largest = 0.0;
-    for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(Vec3(to[column])));
-    return glm::length(Vec3(to[3]) - center) + largest;
+    for (int column = 0; column < 3; ++column) largest = std::max(largest, safe_length(Vec3(to[column])));
+    return safe_length(Vec3(to[3]) - center) + largest;
   }
-  visit_hull(body, to, [&](const Vec3& p) { radius = std::max(radius, glm::length(p - center)); });
+  visit_hull(body, to, [&](const Vec3& p) { radius = std::max(radius, safe_length(p - center)); });
   return radius;
 }
 
@@ -66,11 +68,20 @@ Mat3 cofactor(const Mat3& m) {
 
 void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_local = world_from_local;
-  body.local_from_world = glm::inverse(world_from_local);
-  const Mat3 linear(world_from_local);
-  // Scaled to about 1 before products are formed, so that neither tiny nor huge bodies under- or overflow.
-  const double size = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-  const Mat3 unit = linear / size;
+  // Brought to about 1 by a power of two before products are formed, so that neither bodies that are tiny or huge
+  // beside the scene nor planes in a scene of tiny units under- or overflow.
+  double largest = 0.0;
+  for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(world_from_local[i / 3][i % 3]));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto scaled_rows = [exponent](Mat4 m, int columns) {
+    for (int i = 0; i < 3 * columns; ++i) m[i / 3][i % 3] = std::ldexp(m[i / 3][i % 3], -exponent);
+    return m;
+  };
+  const Mat4 about_one = scaled_rows(world_from_local, 4);
+  body.local_from_world = scaled_rows(glm::inverse(about_one), 3);
+  const Mat3 linear(about_one);
+  const Mat3 unit = linear / std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
   body.world_from_normal = glm::determinant(unit) < 0.0 ? -cofactor(unit) : cofactor(unit);
 }
 
@@ -146,8 +157,10 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
     if (i < out.finite_bodies) {
       out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], n.center));
     }
-    Mat4 world = user_from_local[i];
-    world[3] = Vec4(Vec3(world[3]) - n.center, 1.0);  // subtract before scaling: exact where it can be
+    // Subtract before anything else is added or scaled: exact where it can be, however far away the scene is.
+    Mat4 world = bodies[body.body].world_from_local;
+    world[3] = Vec4(Vec3(world[3]) - n.center, 1.0);
+    if (body.mesh) world = world * body.mesh->mesh_from_local;
     for (int column = 0; column < 4; ++column) {
       for (int axis = 0; axis < 3; ++axis) world[column][axis] /= n.units;
     }

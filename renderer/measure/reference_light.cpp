@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/safe_length.h"
 
 namespace tilelight::reference {
 namespace {
@@ -32,7 +33,7 @@ double attenuation_factor(const Attenuation& attenuation, double distance) {
 // None for a light in the very point: it has no direction.
 std::optional<Incidence> incidence(const Light& light, const Vec3& point, const Attenuation& attenuation) {
   if (light.kind == LightKind::directional)
-    return Incidence{-glm::normalize(light.direction), std::numeric_limits<double>::infinity(), 1.0};
+    return Incidence{-safe_normalize(light.direction), std::numeric_limits<double>::infinity(), 1.0};
   const Vec3 way = light.position - point;
   const double distance = glm::length(way);
   if (distance == 0.0) return std::nullopt;

@@ -138,10 +138,8 @@ class TileKernel {
     for (int y = y0; y < y1; ++y) {
       for (int x = job_.rect.x0; x < job_.rect.x1; ++x, ++sample) {
         const SamplePoint p = sample_point(x, y, spec_.seed, index);
-        const Vec3 at = eye.corner + (x + p.x) * eye.step_x + (y + p.y) * eye.step_y;
-        const Ray ray = eye.projection == Projection::perspective ? Ray{eye.origin, glm::normalize(at), {}}
-                                                                  : Ray{eye.origin + at, eye.forward, {}};
-        primary.push(ray, {Color(1.0), sample, 0, 0, "primary"});
+        const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
+        primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample, 0, 0, "primary"});
       }
     }
     counts_.primary += sample;

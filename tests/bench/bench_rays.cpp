@@ -49,8 +49,8 @@ Batches primary_rays(const ViewPlan& plan) {
     for (int y = rect.y0; y < rect.y1; ++y) {
       for (int x = rect.x0; x < rect.x1; ++x) {
         const SamplePoint p = sample_point(x, y, 0, 0);
-        const Vec3 at = plan.eye.corner + (x + p.x) * plan.eye.step_x + (y + p.y) * plan.eye.step_y;
-        batches[i].push_back({{plan.eye.origin, glm::normalize(at), {}}});
+        const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
+        batches[i].push_back({{ray.origin, ray.direction, {}}});
       }
     }
   }

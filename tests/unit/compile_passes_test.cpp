@@ -187,6 +187,105 @@ TEST_F(Compile, AnUpVectorAlongTheViewFallsBackToAnOrthonormalFrame) {
   EXPECT_FALSE(is_up_along_view(camera));
 }
 
+// From 1e12 radii away the rounding of the eye is 1e-4; between two pixels' rays lies 1e-6 all the same.
+TEST_F(Compile, RaysOfAFarEyeStartJustBeforeTheBodies) {
+  Camera camera;
+  camera.target = {0.1, 0.2, 0.3};
+  const Vec3 back = glm::normalize(Vec3(1, 2, 3));
+  camera.position = camera.target + 1e12 * back;
+  camera.fov_y_deg = 2e-4 / 1e12 * 180.0 / 3.14159265358979323846;  // a picture of height 2e-4 at the target
+  Eye eye = make_eye(camera, 200, 200, Vec3(0.0), 1.0);
+  start_near_bodies(eye, camera.target, 200, 200, {});
+  EXPECT_NEAR(glm::length(eye_ray(eye, 100, 100).origin), 2.0, 0.1);
+  for (const double x : {0.0, 57.0, 199.0}) {
+    const EyeRay ray = eye_ray(eye, x, 100.0), next = eye_ray(eye, x + 1.0, 100.0);
+    EXPECT_NEAR(glm::length(next.origin - ray.origin), 1e-6, 1e-14);
+    EXPECT_NEAR(glm::length(ray.direction + back), 0.0, 1e-14);
+  }
+  const Vec3 middle = eye_ray(eye, 100, 100).origin - camera.target;
+  EXPECT_NEAR(glm::length(middle - glm::dot(middle, back) * back), 0.0, 1e-14);  // on the axis
+}
+
+TEST_F(Compile, RaysOfAFarEyeStartInItWhereAPlaneLiesBetween) {
+  Scene scene = one_sphere();
+  View view;
+  view.image = {32, 32, 0.0};
+  view.camera = Camera{};
+  view.camera->position = {0, 5e4, 1e5};
+  view.camera->fov_y_deg = 1e-3;
+  const auto is_at_eye = [&] {
+    const Eye eye = plan_view(*compile_scene(scene, pool_), view, "").eye;
+    return eye.start == eye.origin;
+  };
+  EXPECT_FALSE(is_at_eye());
+  Object plane;
+  plane.shape = PlaneShape{Vec3(0, -1, 0), Vec3(0, 1, 0)};
+  scene.objects.push_back(plane);
+  EXPECT_FALSE(is_at_eye());  // the plane lies behind the bodies
+  scene.objects.back().shape = PlaneShape{Vec3(0, 1e4, 0), Vec3(0, 1, 0)};
+  EXPECT_TRUE(is_at_eye());
+}
+
+// Moving by whole numbers below 2^53 is exact, so nothing may change, not even the part of a mesh's place that comes
+// from its own middle.
+TEST_F(Compile, AMeshFarFromTheOriginKeepsItsPlaceAmongTheOthers) {
+  const auto compiled = [&](const Vec3& by) {
+    Scene scene = one_sphere();
+    scene.objects = {sphere_at(by, 4.0)};
+    MeshData mesh;
+    mesh.positions = {Vec3(0, 0, 0), Vec3(0.3, 0, 0), Vec3(0, 0.7, 0), Vec3(0, 0, 0.9)};
+    mesh.indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    scene.meshes = {mesh};
+    Object object;
+    object.shape = MeshShape{0};
+    object.world_from_shape[3] = Vec4(by, 1.0);
+    scene.objects.push_back(object);
+    return compile_scene(scene, pool_)->bodies[1].world_from_local;
+  };
+  EXPECT_EQ(compiled(Vec3(0.0)), compiled(Vec3(0x1p50, -0x1p51, 0x1p49)));
+}
+
+TEST_F(Compile, TheLengthsOfDirectionsSayNothingHoweverSmall) {
+  Scene scene = one_sphere();
+  scene.lights[0].direction = {0, -1e-200, 0};
+  Object plane;
+  plane.shape = PlaneShape{Vec3(0.0), Vec3(0, 1e-200, 0)};
+  scene.objects.push_back(plane);
+  const auto compiled = compile_scene(scene, pool_);
+  EXPECT_EQ(compiled->lights[0].to_light, Vec3(0, 1, 0));
+  EXPECT_EQ(Vec3(compiled->bodies[1].world_from_local[1]), Vec3(0, 1, 0));
+}
+
+TEST_F(Compile, ASceneOfAnyUnitIsNormalisedToTheSameBits) {
+  const auto compiled = [&](double s) {
+    Scene scene = one_sphere();
+    scene.objects = {sphere_at(s * Vec3(0.1, 0.9, 0.2), s * 0.7), sphere_at(s * Vec3(3, 2, 1), s * 0.4)};
+    Object plane;
+    plane.shape = PlaneShape{s * Vec3(0, -1, 0), Vec3(1, 5, 2)};
+    scene.objects.push_back(plane);
+    return compile_scene(scene, pool_);
+  };
+  const auto one = compiled(1.0);
+  for (const double s : {0x1p-900, 0x1p-600, 0x1p90}) {
+    const auto other = compiled(s);
+    EXPECT_EQ(other->units, s * one->units);
+    EXPECT_EQ(other->bounding_radius, s * one->bounding_radius);
+    for (const size_t i : {0, 1}) EXPECT_EQ(other->bodies[i].world_from_local, one->bodies[i].world_from_local);
+    EXPECT_EQ(other->bodies[2].world_from_normal, one->bodies[2].world_from_normal);
+    const Vec3 above = transform_point(other->bodies[2].local_from_world, Vec3(0.1, 0.2, 0.3)) / s;
+    EXPECT_EQ(above, transform_point(one->bodies[2].local_from_world, Vec3(0.1, 0.2, 0.3)));
+  }
+}
+
+TEST_F(Compile, ABodyFarSmallerThanTheSceneHasAnInverse) {
+  Scene scene = one_sphere();
+  scene.objects.push_back(sphere_at({0, 1, 0}, 1e-200));
+  const CompiledBody mote = compile_scene(scene, pool_)->bodies[1];
+  EXPECT_NEAR(mote.local_from_world[0][0] * 1e-200, 1.0, 1e-15);
+  EXPECT_EQ(transform_point(mote.local_from_world, Vec3(0.0)), Vec3(0.0));
+  EXPECT_NEAR(glm::length(mote.world_from_normal * Vec3(0, 1, 0)), 1.0, 1e-15);
+}
+
 // Every box of the input lies in every box on the way to its leaf.
 void expect_nested(const WideBvh& bvh, const std::vector<Box>& boxes, uint32_t node, std::vector<int>& seen) {
   for (int c = 0; c < WideBvh::kWidth; ++c) {
