@@ -208,7 +208,11 @@ class Walk {
         if (!intersect_sphere(local, has_left, is_ahead, t)) return false;
         break;
       case BodyKind::box:
-        if (!intersect_box(body.half, local, has_left ? ray_.left.prim : kNone, is_ahead, t, prim)) return false;
+        if (!intersect_box(
+                body.half, local, has_left ? ray_.left.prim : kNone, is_ahead,
+                [&] { return local_rounding(scene_, body, ray_); }, t, prim)) {
+          return false;
+        }
         break;
       case BodyKind::plane:
         if (!intersect_plane(local, has_left, is_ahead, t)) return false;
