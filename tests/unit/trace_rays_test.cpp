@@ -147,6 +147,18 @@ TEST_F(TraceRays, DoNotSlipBetweenTwoBoxesThatShareAFace) {
   }
 }
 
+TEST_F(TraceRays, FromASheetOnAFloorReachTheLightWhereverTheSheetIsSeen) {
+  constexpr double kGap = 5e-14;  // more than the noise of a ray from the eye, less than that of one from a surface
+  const auto compiled = compile_scene(
+      scene_of({BoxShape{{-1, -1, -1}, {1, 0, 1}}, BoxShape{{-0.8, kGap, -0.8}, {0.8, kGap, 0.8}}}), pool_);
+  const Ray down{Vec3(0.3, 1.0, 0.2) - compiled->center, {0, -1, 0}, {}};
+  const Hit hit = closest(*compiled, down);
+  ASSERT_TRUE(hit.is_hit());
+  ASSERT_EQ(compiled->bodies[hit.body].body, 1u);
+  const Vec3 place = down.origin + hit.t * down.direction;
+  EXPECT_FALSE(closest(*compiled, {place, {0, 1, 0}, {hit.body, hit.prim}, Coincident::before}).is_hit());
+}
+
 TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
   const auto compiled =
       compile_scene(scene_of({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
