@@ -12,6 +12,7 @@ namespace tilelight {
 namespace {
 
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
+constexpr auto kExact = [] { return Vec3(0.0); };
 
 // Inside or outside by the sign of Ng.d at the nearest triangle along the ray; every triangle is tried, since this is
 // asked once a view.
@@ -41,7 +42,7 @@ std::optional<double> exit_distance(const CompiledBody& body, const Ray& world_r
       return t;
     case BodyKind::box:
       if (!(p.x < body.half.x && p.y < body.half.y && p.z < body.half.z)) return std::nullopt;
-      return intersect_box(body.half, ray, kNone, kAhead, t, face) ? std::optional(t) : std::nullopt;
+      return intersect_box(body.half, ray, kNone, kAhead, kExact, t, face) ? std::optional(t) : std::nullopt;
     case BodyKind::mesh:
       return mesh_exit(*body.mesh, ray);
     case BodyKind::plane:

@@ -258,7 +258,11 @@ class Walk {
         if (!intersect_sphere(local, has_left, is_ahead, t)) return false;
         break;
       case BodyKind::box:
-        if (!intersect_box(body.half, local, has_left ? ray_.left.prim : kNone, is_ahead, t, prim)) return false;
+        if (!intersect_box(
+                body.half, local, has_left ? ray_.left.prim : kNone, is_ahead,
+                [&] { return local_rounding(scene_, body, ray_); }, t, prim)) {
+          return false;
+        }
         break;
       case BodyKind::plane:
         if (!intersect_plane(local, has_left, is_ahead, t)) return false;
@@ -275,7 +279,10 @@ class Walk {
     const CompiledBody& body = scene_.bodies[index];
     if (std::abs(t) * steepness(body, local, ray_.direction, prim, t) > start_.noise) return t > 0.0;
     if (index == ray_.left.body || ray_.coincident == Coincident::none) return false;
-    return (body.body > scene_.bodies[ray_.left.body].body) == (ray_.coincident == Coincident::after);
+    const bool is_before = body.body < scene_.bodies[ray_.left.body].body;
+    if (ray_.coincident == Coincident::after) return !is_before;
+    // What lies before the surface has let the ray through that came here; something opaque there is rounding.
+    return is_before && scene_.materials[body.material].is_transmissive;
   }
 
   bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {

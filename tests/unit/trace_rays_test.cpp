@@ -63,6 +63,7 @@ class TraceRays : public testing::Test {
 };
 
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
+constexpr auto kExact = [] { return Vec3(0.0); };
 
 TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
   for (const double far : {0.0, 1e2, 1e4, 1e7}) {
@@ -103,14 +104,59 @@ TEST_F(TraceRays, ABoxKeepsTheRaysThatRunInItsFaces) {
   double t = 0.0;
   uint32_t face = 0;
   for (const double zero : {0.0, -0.0}) {
-    EXPECT_TRUE(intersect_box(Vec3(1.0), {{1.0, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, t, face));
+    EXPECT_TRUE(intersect_box(Vec3(1.0), {{1.0, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, kExact, t, face));
     EXPECT_DOUBLE_EQ(t, 4.0);
-    EXPECT_FALSE(intersect_box(Vec3(1.0), {{1.0 + 1e-15, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, t, face));
+    EXPECT_FALSE(
+        intersect_box(Vec3(1.0), {{1.0 + 1e-15, 0.3, 5.0}, {zero, 0.0, -1.0}}, kNone, kAhead, kExact, t, face));
   }
   // Flat: hit once, from both sides.
-  EXPECT_TRUE(intersect_box({1, 0, 1}, {{0.2, 3, 0.1}, {0, -1, 0}}, kNone, kAhead, t, face));
+  EXPECT_TRUE(intersect_box({1, 0, 1}, {{0.2, 3, 0.1}, {0, -1, 0}}, kNone, kAhead, kExact, t, face));
   EXPECT_DOUBLE_EQ(t, 3.0);
-  EXPECT_FALSE(intersect_box({1, 0, 1}, {{0.2, 0, 0.1}, {0, -1, 0}}, face, kAhead, t, face));
+  EXPECT_FALSE(intersect_box({1, 0, 1}, {{0.2, 0, 0.1}, {0, -1, 0}}, face, kAhead, kExact, t, face));
+}
+
+TEST_F(TraceRays, AimedAtEdgesOfABoxNearlyAlongAFaceNeverMissIt) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto any = [&] {
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return Vec3(x, y, z);
+  };
+  int misses = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3 lower = any() * (i % 4 ? 1.0 : 1000.0), upper = lower + 0.1 + any();
+    // The larger box beside it takes the middle of the scene away from the middle of the box.
+    const auto compiled = compile_scene(scene_of({BoxShape{lower, upper}, BoxShape{lower - 9.0, lower - 8.0}}), pool_);
+    Vec3 target = glm::mix(lower, upper, any()), direction = any() - 0.5;
+    target[i % 3] = lower[i % 3], target[(i + 1) % 3] = upper[(i + 1) % 3];
+    direction[i % 3] *= i % 2 ? 1.0 : 1e-6;
+    const Vec3 from = target + 4.0 * direction;
+    misses +=
+        !closest(*compiled, {(from - compiled->center) / compiled->units, glm::normalize(target - from), {}}).is_hit();
+  }
+  EXPECT_EQ(misses, 0);
+}
+
+TEST_F(TraceRays, DoNotSlipBetweenTwoBoxesThatShareAFace) {
+  std::vector<Shape> wall;
+  for (int i = 0; i < 64; ++i) wall.push_back(BoxShape{{0.1 * i, -0.3, 0.1}, {0.1 * (i + 1), 0.4, 0.7}});
+  const auto compiled = compile_scene(scene_of(wall), pool_);
+  for (int i = 1; i < 64; ++i) {
+    const Vec3 from(0.1 * i, 0.05, 3.0);
+    EXPECT_TRUE(closest(*compiled, {(from - compiled->center) / compiled->units, {0, 0, -1}, {}}).is_hit()) << i;
+  }
+}
+
+TEST_F(TraceRays, FromASheetOnAFloorReachTheLightWhereverTheSheetIsSeen) {
+  constexpr double kGap = 5e-14;  // more than the noise of a ray from the eye, less than that of one from a surface
+  const auto compiled = compile_scene(
+      scene_of({BoxShape{{-1, -1, -1}, {1, 0, 1}}, BoxShape{{-0.8, kGap, -0.8}, {0.8, kGap, 0.8}}}), pool_);
+  const Ray down{Vec3(0.3, 1.0, 0.2) - compiled->center, {0, -1, 0}, {}};
+  const Hit hit = closest(*compiled, down);
+  ASSERT_TRUE(hit.is_hit());
+  ASSERT_EQ(compiled->bodies[hit.body].body, 1u);
+  const Vec3 place = down.origin + hit.t * down.direction;
+  EXPECT_FALSE(closest(*compiled, {place, {0, 1, 0}, {hit.body, hit.prim}, Coincident::before}).is_hit());
 }
 
 TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
