@@ -183,9 +183,9 @@ Outcome coplanar(const Context& context) {
   };
   Outcome out;
   const int side = side_of(context);
-  for (const Pair& pair :
-       {Pair{"mesh, mesh", a, b}, Pair{"mesh, mesh in another order", b, a}, Pair{"mesh, shifted mesh", a, shifted},
-        Pair{"mesh, flat box", a, flat_box}, Pair{"flat box, mesh", flat_box, b}}) {
+  for (const Pair& pair : {Pair{"mesh, mesh", a, b}, Pair{"mesh, mesh in another order", b, a},
+                           Pair{"mesh, shifted mesh", a, shifted}, Pair{"mesh, flat box", a, flat},
+                           Pair{"flat box, mesh", flat, b}, Pair{"mesh, slab", a, slab}, Pair{"slab, mesh", slab, b}}) {
     const ParsedScene both = scene_of(two_quads(pair.first, pair.second, side));
     const ParsedScene alone = scene_of(two_quads(pair.first, "", side));
     const Picture with = picture_of(both, context.pool), without = picture_of(alone, context.pool);
