@@ -23,6 +23,8 @@ constexpr Row kRows[] = {
      needle},
     {"T10", "squeezed instance", "a closed mesh scaled by (1e-8, 1, 1e8)",
      "Moeller-Trumbore in float on transformed vertices", squeezed_instance},
+    {"T11", "a seam between two meshes", "halves of a ball, instances scaled by 1/2 and 2",
+     "Moeller-Trumbore in float without an epsilon", seam},
 };
 
 }  // namespace

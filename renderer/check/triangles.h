@@ -12,6 +12,7 @@ Outcome sliver_fan(const Context& context);
 Outcome giant_triangle(const Context& context);
 Outcome needle(const Context& context);
 Outcome squeezed_instance(const Context& context);
+Outcome seam(const Context& context);
 
 // triangles_shapes.cpp: pictures of odd and small meshes
 Outcome degenerate_triangles(const Context& context);
