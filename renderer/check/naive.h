@@ -55,13 +55,12 @@ inline std::optional<Slabs> slabs(const RayF& ray, const Vec3f& lower, const Vec
 struct TriangleHit {
   float t, u, v;
 };
-// Moeller and Trumbore 1997 with the epsilon of the paper's listing.
-inline std::optional<TriangleHit> triangle(const RayF& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c,
-                                           float t_min) {
-  constexpr float kEpsilon = 1e-6f;
+// Moeller and Trumbore 1997; epsilon: of the determinant, as in the paper's listing.
+inline std::optional<TriangleHit> triangle(const RayF& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c, float t_min,
+                                           float epsilon = 1e-6f) {
   const Vec3f e1 = b - a, e2 = c - a, p = glm::cross(ray.direction, e2);
   const float det = glm::dot(e1, p);
-  if (det > -kEpsilon && det < kEpsilon) return std::nullopt;
+  if (det > -epsilon && det < epsilon) return std::nullopt;
   const float inverse = 1.0f / det;
   const Vec3f s = ray.origin - a;
   const float u = glm::dot(s, p) * inverse;

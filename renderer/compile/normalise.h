@@ -27,13 +27,20 @@ struct Normalisation {
   }
 };
 
-// The box's longest half side lands in (0.5, 1]. A point gets units 1.
+// What reaches farthest from the centre lands in (0.5, 1]. A point gets units 1.
 inline Normalisation normalise(const Box& box) {
   Normalisation n;
   if (box.is_empty()) return n;
   n.center = 0.5 * box.lo + 0.5 * box.hi;
   const Vec3 half = 0.5 * box.hi - 0.5 * box.lo;
-  const double longest = std::max({half.x, half.y, half.z});
+  double longest = std::max({half.x, half.y, half.z});
+  // Near its origin the user's space is finer than any other place of it can be: a box that lies there keeps the origin
+  // as its centre, so that what is small there stays whole.
+  if (std::max({std::abs(n.center.x), std::abs(n.center.y), std::abs(n.center.z)}) <= longest) {
+    const Vec3 reach = glm::abs(n.center) + half;
+    longest = std::max({reach.x, reach.y, reach.z});
+    n.center = Vec3(0.0);
+  }
   if (longest > 0.0) {
     int exponent = 0;
     const double fraction = std::frexp(longest, &exponent);

@@ -150,12 +150,12 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
   const Normalisation n = normalise(bounds);
   out.center = n.center;
   out.units = n.units;
-  out.bounding_center = n.center;
-  out.bounding_radius = out.finite_bodies == 0 ? n.units : 0.0;
+  out.bounding_center = 0.5 * bounds.lo + 0.5 * bounds.hi;
+  out.bounding_radius = out.finite_bodies == 0 ? 1.0 : 0.0;
   for (size_t i = 0; i < out.bodies.size(); ++i) {
     CompiledBody& body = out.bodies[i];
     if (i < out.finite_bodies) {
-      out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], n.center));
+      out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], out.bounding_center));
     }
     // Subtract before anything else is added or scaled: exact where it can be, however far away the scene is.
     Mat4 world = bodies[body.body].world_from_local;

@@ -294,15 +294,28 @@ class Walk {
   // Two surfaces nearer to each other than rounding can tell, measured across them, are in one place, which the lower
   // id wins: coplanar surfaces show one colour everywhere.
   bool is_nearer(uint32_t index, uint32_t prim, double t) const {
-    const double noise = 0x1p-46 * (1.0 + std::abs(t));
-    const double gap = std::abs(t - best_.t);
-    if (gap > 0x1p20 * noise) return t < best_.t;
-    if (gap > noise) {
-      const double slope = std::max(steepness_at(index, prim, t), steepness_at(best_.body, best_.prim, best_.t));
-      if (gap * slope > noise) return t < best_.t;
+    const double gap = std::abs(t - best_.t), size = std::abs(t);
+    if (gap > 0x1p-26 * (1.0 + size)) return t < best_.t;  // what nearly all hits are
+    if (gap > 0x1p-46 * size) {
+      const double reach = std::max(reach_of(scene_.bodies[index]), reach_of(scene_.bodies[best_.body]));
+      const double noise = 0x1p-46 * (reach + size);
+      if (gap > 0x1p20 * noise) return t < best_.t;
+      if (gap > noise) {
+        const double slope = std::max(steepness_at(index, prim, t), steepness_at(best_.body, best_.prim, best_.t));
+        if (gap * slope > noise) return t < best_.t;
+      }
     }
     const uint32_t body = scene_.bodies[index].body, best_body = scene_.bodies[best_.body].body;
     return body != best_body ? body < best_body : prim < best_.prim;
+  }
+
+  // How far a body reaches from the scene's centre: its place is rounded relative to this.
+  static double reach_of(const CompiledBody& body) {
+    if (body.kind == BodyKind::plane) return 1.0;
+    const Vec3 half = body.kind == BodyKind::box ? body.half : Vec3(1.0);
+    Vec3 reach = glm::abs(Vec3(body.world_from_local[3]));
+    for (int column = 0; column < 3; ++column) reach += half[column] * glm::abs(Vec3(body.world_from_local[column]));
+    return std::max({reach.x, reach.y, reach.z});
   }
 
   double steepness_at(uint32_t index, uint32_t prim, double t) const {

@@ -170,6 +170,23 @@ TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
   }
 }
 
+TEST_F(TraceRays, TellSpheresApartThatHalveSixtyTimesTowardsTheOrigin) {
+  std::vector<Shape> row;
+  for (int k = 0; k <= 60; ++k) row.push_back(SphereShape{{3.0 * std::ldexp(1.0, -k), 0, 0}, std::ldexp(1.0, -k)});
+  const auto compiled = compile_scene(scene_of(row), pool_);
+  const auto from = [&](const Vec3& eye, const Vec3& direction) {
+    return closest(*compiled, {(eye - compiled->center) / compiled->units, direction, {}});
+  };
+  for (int k = 0; k <= 60; ++k) {
+    const double radius = std::ldexp(1.0, -k);
+    const Hit hit = from({3.0 * radius, 9.0 * radius, 0.0}, {0, -1, 0});
+    ASSERT_TRUE(hit.is_hit()) << k;
+    EXPECT_EQ(compiled->bodies[hit.body].body, static_cast<uint32_t>(k));
+    EXPECT_DOUBLE_EQ(hit.t * compiled->units, 8.0 * radius);
+  }
+  EXPECT_EQ(compiled->bodies[from(Vec3(0.0), {1, 0, 0}).body].body, 60u);
+}
+
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
   Scene scene =
       scene_of({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
