@@ -297,7 +297,7 @@ class TileRender final : public Render, public WorkSource {
   const int tile_px_, width_, height_, tiles_;
   const Kernel kernel_;
   const PassSchedule schedule_;
-  MediaSet eye_media_;
+  std::vector<uint32_t> eye_media_;
   const Clock::time_point start_ = Clock::now();
 
   std::atomic<bool> cancelled_{false};

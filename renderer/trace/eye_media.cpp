@@ -52,7 +52,7 @@ std::optional<double> exit_distance(const CompiledBody& body, const Ray& world_r
 
 }  // namespace
 
-MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan) {
+std::vector<uint32_t> media_at_eye(const CompiledScene& scene, const ViewPlan& plan) {
   // Along no axis or diagonal of a modelled shape.
   const Ray ray{plan.eye.origin, glm::normalize(Vec3(0.31415, 0.59265, 0.35897)), {}};
   std::vector<std::pair<double, uint32_t>> around;  // by distance, the farthest first: the order of entering
@@ -62,8 +62,8 @@ MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan) {
     if (const auto exit = exit_distance(body, ray)) around.emplace_back(-*exit, i);
   }
   std::sort(around.begin(), around.end());
-  MediaSet media;
-  for (const auto& [order, body] : around) media.enter(body);
+  std::vector<uint32_t> media;
+  for (const auto& [order, body] : around) media.push_back(body);
   return media;
 }
 

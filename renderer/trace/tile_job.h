@@ -11,7 +11,6 @@
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/film/film.h"
 #include "renderer/shade/light_equation.h"
-#include "renderer/shade/media.h"
 
 namespace tilelight {
 
@@ -44,7 +43,7 @@ class RayListener {
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
-  const MediaSet* eye_media = nullptr;  // of an eye inside glass
+  const std::vector<uint32_t>* eye_media = nullptr;  // see media_at_eye
   TileView* film = nullptr;             // null: nothing is written (explanations)
   TileRect rect;
   uint32_t first_sample = 0, sample_count = 1;
@@ -58,7 +57,7 @@ using Kernel = void (*)(const TileJob&);
 Kernel kernel_of(KernelVariant variant);
 Kernel explain_kernel();
 
-// The media around the view's eye.
-MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan);
+// The media around the view's eye, outermost first.
+std::vector<uint32_t> media_at_eye(const CompiledScene& scene, const ViewPlan& plan);
 
 }  // namespace tilelight
