@@ -87,7 +87,7 @@ Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPla
                                     std::to_string(image.height - 1));
   }
   Explainer explainer(scene);
-  const std::vector<uint32_t> eye_media = media_at_eye(scene, plan);
+  const EyeMedia eye_media(scene, plan);
   TileCounts counts;
   TileJob job;
   job.scene = &scene;

@@ -38,10 +38,10 @@ class TileRender final : public Render, public WorkSource {
         height_(plan_.view.image.height),
         tiles_(tile_count(width_, height_, tile_px_)),
         kernel_(kernel_of(plan_.variant)),
+        eye_media_(*scene_, plan_),
         schedule_(plan_.view.render),
         film_(width_, height_) {
     report_.threads = pool.thread_count();
-    eye_media_ = media_at_eye(*scene_, plan_);
     const std::lock_guard lock(mutex_);
     open_pass(Clock::now());
   }
@@ -296,8 +296,8 @@ class TileRender final : public Render, public WorkSource {
   const RenderOptions options_;
   const int tile_px_, width_, height_, tiles_;
   const Kernel kernel_;
+  const EyeMedia eye_media_;
   const PassSchedule schedule_;
-  std::vector<uint32_t> eye_media_;
   const Clock::time_point start_ = Clock::now();
 
   std::atomic<bool> cancelled_{false};

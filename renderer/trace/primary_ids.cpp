@@ -29,7 +29,7 @@ std::vector<uint64_t> primary_ids(const CompiledScene& scene, const ViewPlan& pl
   first_hits.view.render.shadows = false;
   PrimaryListener listener(scene);
   TileCounts counts;
-  const std::vector<uint32_t> eye_media = media_at_eye(scene, plan);
+  const EyeMedia eye_media(scene, plan);
   TileJob job;
   job.scene = &scene;
   job.plan = &first_hits;

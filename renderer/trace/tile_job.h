@@ -11,6 +11,7 @@
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/film/film.h"
 #include "renderer/shade/light_equation.h"
+#include "renderer/trace/eye_media.h"
 
 namespace tilelight {
 
@@ -43,7 +44,7 @@ class RayListener {
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
-  const std::vector<uint32_t>* eye_media = nullptr;  // see media_at_eye
+  const EyeMedia* eye_media = nullptr;
   TileView* film = nullptr;             // null: nothing is written (explanations)
   TileRect rect;
   uint32_t first_sample = 0, sample_count = 1;
@@ -56,8 +57,5 @@ using Kernel = void (*)(const TileJob&);
 
 Kernel kernel_of(KernelVariant variant);
 Kernel explain_kernel();
-
-// The media around the view's eye, outermost first.
-std::vector<uint32_t> media_at_eye(const CompiledScene& scene, const ViewPlan& plan);
 
 }  // namespace tilelight

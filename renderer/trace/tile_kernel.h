@@ -137,8 +137,7 @@ class TileKernel {
     if (levels_.empty()) levels_.emplace_back();
     Level& primary = levels_[0];
     primary.clear();
-    media_.shrink(0);
-    const MediaSets::Set media = kCan.glass ? media_.of(*job_.eye_media) : MediaSets::kOpenAir;
+    enter_eye_media({job_.rect.x0, y0, job_.rect.x1, y1});
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
     for (int y = y0; y < y1; ++y) {
@@ -147,13 +146,29 @@ class TileKernel {
         const Vec3 at = eye.corner + (x + p.x) * eye.step_x + (y + p.y) * eye.step_y;
         const Ray ray = eye.projection == Projection::perspective ? Ray{eye.origin, glm::normalize(at), {}}
                                                                   : Ray{eye.origin + at, eye.forward, {}};
-        primary.push(ray, {Color(1.0), sample, media, 0, "primary"});
+        primary.push(ray, {Color(1.0), sample, media_at(ray.origin), 0, "primary"});
       }
     }
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
     spent_.assign(sample, 0);
     untraced_.assign(sample, 0.0);
+  }
+
+  void enter_eye_media(const TileRect& pixels) {
+    media_.shrink(0);
+    if constexpr (kCan.glass) {
+      eye_media_ = media_.of(job_.eye_media->around_all());
+      some_media_ = job_.eye_media->some_near(pixels);
+    }
+  }
+
+  // The media in which a primary ray starts.
+  MediaSets::Set media_at(const Vec3& start) {
+    if constexpr (kCan.glass) {
+      if (!some_media_.empty()) return media_.of(job_.eye_media->around(start, some_media_));
+    }
+    return eye_media_;
   }
 
   void shade(const Ray& ray, const Path& path, const Hit& hit) {
@@ -324,6 +339,8 @@ class TileKernel {
   std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
   MediaSets media_;
+  MediaSets::Set eye_media_ = MediaSets::kOpenAir;
+  MediaList some_media_;         // hold the starts of some rays of the batch
   std::vector<Color> radiance_;  // by sample of the batch
   std::vector<int> spent_;       // rays after the primary one
   std::vector<double> untraced_;
