@@ -280,7 +280,8 @@ class TileRender final : public Render, public WorkSource {
     if (untraced_weight_ == 0.0) {
       point.truncation_bound = 0.0;
     } else if (scene_->radiance_bound >= 0.0) {
-      point.truncation_bound = untraced_weight_ * scene_->radiance_bound;
+      constexpr double kRounding = 1.0 + 0x1p-36;  // more than the products and sums behind both have lost
+      point.truncation_bound = untraced_weight_ * scene_->radiance_bound * kRounding;
     }
     report_.points.push_back(point);
   }
