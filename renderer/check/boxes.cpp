@@ -213,7 +213,7 @@ constexpr Row kRows[] = {
     {"B4", "eye or lamp in a box", "from inside; light from the other side", "the entry alone", inside},
     {"B5", "rays at the corners of a box", "along diagonals; touching the corner alone", "slabs with near < far",
      corner},
-    {"B6", "seam of two boxes", "rays in the seam itself, decimal places", "slabs by min and max", seam},
+    {"B6", "seam of two boxes", "rays in the seam itself, decimal places", "slabs by min and max", seams_of_boxes},
     {"B7", "tiny box on a large one", "edge 1e-12 on a cube of 1", "slabs in float", tiny_box},
     {"B8", "huge room", "faces at +-1e15, eye 1 above the floor", "slabs in float", huge_room},
     {"B9", "sheet on a floor", "5e-14 above a floor of 2", "slabs in float", sheet_on_floor},

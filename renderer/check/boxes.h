@@ -8,7 +8,7 @@ namespace tilelight::check {
 
 // boxes_seams.cpp: where boxes touch, and sizes that differ by many powers of ten.
 Outcome corner(const Context& context);
-Outcome seam(const Context& context);
+Outcome seams_of_boxes(const Context& context);
 Outcome tiny_box(const Context& context);
 Outcome sheet_on_floor(const Context& context);
 Outcome huge_room(const Context& context);

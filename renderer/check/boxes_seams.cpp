@@ -52,7 +52,7 @@ Outcome corner(const Context& context) {
 
 // A wall of boxes whose common faces lie at decimal places, upright and turned: the voxels of an orthographic view, met
 // exactly between two of them. A ray in the seam is in both closed boxes, and from there the wall's lamp is in sight.
-Outcome seam(const Context& context) {
+Outcome seams_of_boxes(const Context& context) {
   std::vector<BoxShape> boxes;
   constexpr int kBoxes = 64;
   for (int i = 0; i < kBoxes; ++i) boxes.push_back({{0.1 * i, -0.3, 0.1}, {0.1 * (i + 1), 0.4, 0.7}});

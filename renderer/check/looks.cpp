@@ -35,20 +35,13 @@ std::vector<Seen> look(std::string_view json, TilePool& pool, std::optional<Tile
   parsed.view.render.max_depth = 0;
   const auto compiled = compile_scene(parsed.scene, pool);
   const ViewPlan plan = plan_view(*compiled, parsed.view);
-  const MediaSet eye_media = media_at_eye(*compiled, plan);
+  const EyeMedia eye_media(*compiled, plan);
   const TileRect rect = part.value_or(TileRect{0, 0, parsed.view.image.width, parsed.view.image.height});
   std::vector<std::vector<Seen>> rows(static_cast<size_t>(rect.height()));
   pool.parallel_for(rect.height(), Priority::normal, [&](int64_t row) {
     Watcher watcher(*compiled);
-    TileCounts counts;
-    TileJob job;
-    job.scene = compiled.get();
-    job.plan = &plan;
-    job.eye_media = &eye_media;
-    job.rect = {rect.x0, rect.y0 + static_cast<int>(row), rect.x1, rect.y0 + static_cast<int>(row) + 1};
-    job.counts = &counts;
-    job.listener = &watcher;
-    explain_kernel()(job);
+    const int y = rect.y0 + static_cast<int>(row);
+    explain(*compiled, plan, eye_media, {rect.x0, y, rect.x1, y + 1}, 0, watcher);
     rows[static_cast<size_t>(row)] = std::move(watcher.pixels);
   });
   std::vector<Seen> pixels;

@@ -110,7 +110,7 @@ constexpr Row kRows[] = {
     {"S8", "instances scaled", "|u| = 1e-3, 1, 1e3 in the instance", "the quadratic with A = 1", scaled_instances},
     {"S9", "speck far from the origin", "r = 1e-3 at 1e8, seen from 0.025", "world space in float", speck_far_away},
     {"S10", "needle grazed", "ellipsoid of axes 1e4, 1 and 1e-4, turned", "float quadratic in the body's own space",
-     needle},
+     needle_ellipsoid},
     {"S11", "sphere as far as doubles tell", "r = 1, distance 1e12", "b^2 - 4ac in double", farthest_ball},
 };
 

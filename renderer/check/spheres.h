@@ -16,6 +16,6 @@ Outcome speck_far_away(const Context& context);
 // spheres_thin.cpp: where something is thin beside its neighbour.
 Outcome glass_shell(const Context& context);
 Outcome dust(const Context& context);
-Outcome needle(const Context& context);
+Outcome needle_ellipsoid(const Context& context);
 
 }  // namespace tilelight::check

@@ -31,17 +31,9 @@ class PathListener : public RayListener {
 };
 
 // The walk of the renderer's own kernel for sample 0 of a pixel.
-Sequence walk(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media, int x, int y) {
+Sequence walk(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, int x, int y) {
   PathListener listener(scene);
-  TileCounts counts;
-  TileJob job;
-  job.scene = &scene;
-  job.plan = &plan;
-  job.eye_media = &eye_media;
-  job.rect = {x, y, x + 1, y + 1};
-  job.counts = &counts;
-  job.listener = &listener;
-  explain_kernel()(job);
+  explain(scene, plan, eye_media, {x, y, x + 1, y + 1}, 0, listener);
   return std::move(listener.path);
 }
 
@@ -97,7 +89,7 @@ ShellCounts shell_counts(const std::string& inner, double inner_ior, const Conte
   parsed.view.image.width = parsed.view.image.height = size;
   const auto compiled = compile_scene(parsed.scene, context.pool);
   const ViewPlan plan = plan_view(*compiled, parsed.view);
-  const MediaSet eye_media = media_at_eye(*compiled, plan);
+  const EyeMedia eye_media(*compiled, plan);
   const ReferenceScene reference(parsed.scene);
   const ReferenceEye eye = make_reference_eye(reference, parsed.view, *parsed.view.camera);
 
@@ -192,7 +184,7 @@ Outcome dust(const Context& context) {
 // In the space where the ellipsoid is the unit ball, a ray meets it iff it passes the centre at less than 1: tangents
 // all around, 1 +- 1e-6. The body stands turned in the world, so that every coordinate mixes the long and the thin
 // axis.
-Outcome needle(const Context& context) {
+Outcome needle_ellipsoid(const Context& context) {
   const Vec3 axes(1e4, 1.0, 1e-4);
   const Mat3 turn = rotation_about({1, 2, 3}, 37.0);
   Scene of_ball = scene_of_shapes({SphereShape{}});

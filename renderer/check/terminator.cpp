@@ -2,42 +2,14 @@
 // H3: where the light ends on a mesh whose normals make it look round.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "renderer/check/check.h"
+#include "renderer/check/meshes.h"
 #include "renderer/check/pictures.h"
 #include "renderer/film/tone.h"
 
 namespace tilelight::check {
 namespace {
-
-// An icosahedron, twice subdivided onto the unit sphere: 320 triangles, the sphere's own normals.
-MeshData icosphere() {
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  MeshData mesh;
-  mesh.positions = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  for (Vec3& p : mesh.positions) p = glm::normalize(p);
-  mesh.indices = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
-                  3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1};
-  for (int level = 0; level < 2; ++level) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
-      const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
-      if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
-      return it->second;
-    };
-    std::vector<uint32_t> finer;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-      const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-      const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
-    }
-    mesh.indices = std::move(finer);
-  }
-  mesh.normals = mesh.positions;
-  return mesh;
-}
 
 // Lambert's light alone, from 60 degrees beside the eye, and along no edge of the mesh.
 ParsedScene lit_ball(int size_px, bool is_mesh, Terminator terminator, bool shadows) {
@@ -49,7 +21,9 @@ ParsedScene lit_ball(int size_px, bool is_mesh, Terminator terminator, bool shad
   parsed.view.render.terminator = terminator;
   parsed.view.render.shadows = shadows;
   if (is_mesh) {
-    parsed.scene.meshes = {icosphere()};
+    MeshData ball = icosphere(2);  // 320 triangles, with the sphere's own normals
+    ball.normals = ball.positions;
+    parsed.scene.meshes = {ball};
     parsed.scene.objects[0].shape = MeshShape{0};
   }
   return parsed;

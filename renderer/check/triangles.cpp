@@ -20,11 +20,11 @@ constexpr Row kRows[] = {
      coincident_triangles},
     {"T8", "teapot in a stadium", "spheres of radius 2^-k at 2^-k * 3, k = 0..60", "float, fixed offset 1e-4", stadium},
     {"T9", "needle", "a closed tube of triangles with aspect 1e8", "Moeller-Trumbore in float without an epsilon",
-     needle},
+     needle_triangles},
     {"T10", "squeezed instance", "a closed mesh scaled by (1e-8, 1, 1e8)",
      "Moeller-Trumbore in float on transformed vertices", squeezed_instance},
     {"T11", "a seam between two meshes", "halves of a ball, instances scaled by 1/2 and 2",
-     "Moeller-Trumbore in float without an epsilon", seam},
+     "Moeller-Trumbore in float without an epsilon", seam_of_meshes},
 };
 
 }  // namespace

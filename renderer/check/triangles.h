@@ -10,9 +10,9 @@ namespace tilelight::check {
 Outcome edges_and_vertices(const Context& context);
 Outcome sliver_fan(const Context& context);
 Outcome giant_triangle(const Context& context);
-Outcome needle(const Context& context);
+Outcome needle_triangles(const Context& context);
 Outcome squeezed_instance(const Context& context);
-Outcome seam(const Context& context);
+Outcome seam_of_meshes(const Context& context);
 
 // triangles_shapes.cpp: pictures of odd and small meshes
 Outcome degenerate_triangles(const Context& context);

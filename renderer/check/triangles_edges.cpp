@@ -251,7 +251,7 @@ Outcome giant_triangle(const Context& context) {
 }
 
 // From the axis of the tube every ray meets it.
-Outcome needle(const Context& context) {
+Outcome needle_triangles(const Context& context) {
   const Rimmed mesh(tube());
   const RayScene scene(mesh_document(mesh.mesh()), context.pool);
   const int count = context.is_quick ? 20'000 : 200'000;
@@ -299,7 +299,7 @@ Outcome squeezed_instance(const Context& context) {
 // A ball of two open meshes, which meet along the edges of its triangles: from inside no ray passes between them. The
 // lower half is stored twice as large and the upper one half as large, and their instances undo that. (Placements that
 // round, such as different shifts, part the seam by that rounding; then no test a mesh at a time can close it.)
-Outcome seam(const Context& context) {
+Outcome seam_of_meshes(const Context& context) {
   const Rimmed ball(icosphere(3));
   MeshData halves[2] = {placed(ball.mesh(), 2.0, Vec3(0.0)), placed(ball.mesh(), 0.5, Vec3(0.0))};
   std::vector<int> halves_of(ball.mesh().positions.size(), 0);  // by vertex, a bit each

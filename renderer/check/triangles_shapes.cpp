@@ -114,7 +114,7 @@ Insiders taken_for_insiders(const ParsedScene& parsed, TilePool& pool) {
   for (int i = 0; i < out.count; ++i) {
     const Vec3 eye = Vec3(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2));
     plan.eye.origin = (eye + Vec3(1.7, 0.0, 0.4) - compiled->center) / compiled->units;
-    out.ours += media_at_eye(*compiled, plan).top(*compiled) != kNone;
+    out.ours += !EyeMedia(*compiled, plan).around_all().empty();
     int crossings = 0;
     const naive::RayF ray{Vec3f(eye), Vec3f(towards)};
     for (size_t k = 0; k < mesh.indices.size(); k += 3) {

@@ -66,7 +66,8 @@ class Sample {
 
   ReferencePixel trace(const ReferenceEye& eye, const Vec2& p) {
     const Line axis = eye_line(eye, p);
-    PathRay first{.ray = {.origin = axis.origin, .direction = axis.direction}, .media = MediaStack(eye.media)};
+    PathRay first{.ray = {.origin = axis.origin, .direction = axis.direction},
+                  .media = MediaStack(eye.is_perspective ? eye.media : scene_.media_around(axis.origin))};
     first.neighbours = {eye_line(eye, p + Vec2(kNeighbourPx, 0.0)), eye_line(eye, p + Vec2(0.0, kNeighbourPx))};
     queue_.push_back(std::move(first));
     while (!queue_.empty()) {
@@ -228,7 +229,7 @@ ReferenceEye make_reference_eye(const ReferenceScene& scene, const View& view, c
   const double pixel = plane_height / view.image.height;
   eye.right = pixel * right, eye.down = -pixel * up;
   eye.center_x = 0.5 * view.image.width, eye.center_y = 0.5 * view.image.height;
-  eye.media = scene.media_around(camera.position);
+  if (eye.is_perspective) eye.media = scene.media_around(camera.position);
   eye.render = view.render;
   return eye;
 }

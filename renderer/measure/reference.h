@@ -35,7 +35,7 @@ struct ReferenceEye {
   Vec3 forward{0.0}, right{0.0}, down{0.0};  // right and down: from one pixel to the next, on the plane at forward
   bool is_perspective = true;
   double center_x = 0.0, center_y = 0.0;  // of the image, pixels
-  std::vector<uint32_t> media;            // in which the eye lies, outermost first
+  std::vector<uint32_t> media;            // perspective: in which the eye lies, outermost first
   RenderSpec render;
 };
 ReferenceEye make_reference_eye(const ReferenceScene& scene, const View& view, const Camera& camera);

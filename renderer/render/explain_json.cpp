@@ -87,17 +87,8 @@ Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPla
                                     std::to_string(image.height - 1));
   }
   Explainer explainer(scene);
-  const MediaSet eye_media = media_at_eye(scene, plan);
-  TileCounts counts;
-  TileJob job;
-  job.scene = &scene;
-  job.plan = &plan;
-  job.eye_media = &eye_media;
-  job.rect = {x, y, x + 1, y + 1};
-  job.first_sample = static_cast<uint32_t>(sample);
-  job.counts = &counts;
-  job.listener = &explainer;
-  explain_kernel()(job);
+  const TileCounts counts =
+      explain(scene, plan, EyeMedia(scene, plan), {x, y, x + 1, y + 1}, static_cast<uint32_t>(sample), explainer);
 
   Json srgb = Json::array();
   for (int c = 0; c < 3; ++c) {

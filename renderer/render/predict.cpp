@@ -18,7 +18,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media, const TileRect& rect) {
+int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect) {
   TileCounts counts;
   TileJob job;
   job.scene = &scene;
@@ -56,10 +56,11 @@ struct Price {
 };
 
 // One sample a cell, all over the image, until all are traced or the time is over.
-Price ask_cells(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
+Price ask_cells(const CompiledScene& scene, const ViewPlan& plan) {
   constexpr double kEnoughMs = 100.0;
   constexpr int kAtLeast = 8;
   const ViewPlan cells = in_cells(plan);
+  const EyeMedia eye_media(scene, cells);
   const int width = cells.view.image.width, count = width * cells.view.image.height, stride = golden_stride(count);
   const auto start = Clock::now();
   int64_t rays = 0, place = 0;
@@ -74,9 +75,10 @@ Price ask_cells(const CompiledScene& scene, const ViewPlan& plan, const MediaSet
 
 // Rays of neighbouring pixels go the same ways, so the price of a ray is asked of whole blocks of pixels, spread over
 // the image, and with warm caches: a render comes back to a tile sample after sample.
-double ask_blocks(const CompiledScene& scene, const ViewPlan& plan, const MediaSet& eye_media) {
+double ask_blocks(const CompiledScene& scene, const ViewPlan& plan) {
   constexpr int kColumns = 4, kRows = 3, kBlockPx = 16;
   const ImageSpec& image = plan.view.image;
+  const EyeMedia eye_media(scene, plan);
   double ms = 0.0;
   int64_t rays = 0;
   for (int i = 0; i < kColumns * kRows; ++i) {
@@ -95,9 +97,8 @@ double ask_blocks(const CompiledScene& scene, const ViewPlan& plan, const MediaS
 
 CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
   constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
-  const MediaSet eye_media = media_at_eye(scene, plan);
-  Price price = ask_cells(scene, plan, eye_media);
-  if (price.rays_per_sample < kManyRays) price.ms_per_ray = ask_blocks(scene, plan, eye_media);
+  Price price = ask_cells(scene, plan);
+  if (price.rays_per_sample < kManyRays) price.ms_per_ray = ask_blocks(scene, plan);
 
   const double rays_a_pass_sample =
       price.rays_per_sample * plan.view.image.width * static_cast<double>(plan.view.image.height);

@@ -38,10 +38,10 @@ class TileRender final : public Render, public WorkSource {
         height_(plan_.view.image.height),
         tiles_(tile_count(width_, height_, tile_px_)),
         kernel_(kernel_of(plan_.variant)),
+        eye_media_(*scene_, plan_),
         schedule_(plan_.view.render),
         film_(width_, height_) {
     report_.threads = pool.thread_count();
-    eye_media_ = media_at_eye(*scene_, plan_);
     const std::lock_guard lock(mutex_);
     open_pass(Clock::now());
   }
@@ -280,7 +280,8 @@ class TileRender final : public Render, public WorkSource {
     if (untraced_weight_ == 0.0) {
       point.truncation_bound = 0.0;
     } else if (scene_->radiance_bound >= 0.0) {
-      point.truncation_bound = untraced_weight_ * scene_->radiance_bound;
+      constexpr double kRounding = 1.0 + 0x1p-36;  // more than the products and sums behind both have lost
+      point.truncation_bound = untraced_weight_ * scene_->radiance_bound * kRounding;
     }
     report_.points.push_back(point);
   }
@@ -296,8 +297,8 @@ class TileRender final : public Render, public WorkSource {
   const RenderOptions options_;
   const int tile_px_, width_, height_, tiles_;
   const Kernel kernel_;
+  const EyeMedia eye_media_;
   const PassSchedule schedule_;
-  MediaSet eye_media_;
   const Clock::time_point start_ = Clock::now();
 
   std::atomic<bool> cancelled_{false};

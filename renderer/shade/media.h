@@ -1,72 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
-// MediaSet: the transparent bodies a ray is inside of, in the order of entering. The medium that counts is the one of
-// the highest priority, among equals the one entered last (after Schmidt and Budge 2002). Plain value.
+// MediaSets: the sets of transparent bodies that rays are inside of, in the order of entering. The medium that counts
+// is the one of the highest priority, among equals the one entered last (after Schmidt and Budge 2002). However many
+// media overlap, none is forgotten: a set is a history that shares its past with the sets it came from. A crossing adds
+// one node or none, after leaving out of order kFewMedia of them at most. One thread at a time.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 
 namespace tilelight {
 
-class MediaSet {
+class MediaSets {
  public:
-  static constexpr int kCapacity = 16;  // deeper nesting keeps the first sixteen
+  using Set = uint32_t;  // stays good until `shrink` takes it away
+  static constexpr Set kOpenAir = kNone;
 
-  void enter(uint32_t body) {
-    if (count_ < kCapacity) bodies_[count_++] = body;
+  explicit MediaSets(const CompiledScene& scene) : scene_(scene) {}
+
+  Set with(Set set, uint32_t body) {
+    const bool is_top = set == kOpenAir || priority(body) >= priority(nodes_[set].top);
+    return push({body, set, is_top ? body : nodes_[set].top, false});
   }
-  // Takes the last entry of the body away.
-  void leave(uint32_t body) {
-    int last = count_ - 1;
-    while (last >= 0 && bodies_[last] != body) --last;
-    if (last < 0) return;
-    for (int i = last; i + 1 < count_; ++i) bodies_[i] = bodies_[i + 1];
-    --count_;
+  Set of(std::span<const uint32_t> outermost_first) {
+    Set set = kOpenAir;
+    for (const uint32_t body : outermost_first) set = with(set, body);
+    return set;
   }
-  bool contains(uint32_t body) const {
-    for (int i = 0; i < count_; ++i) {
-      if (bodies_[i] == body) return true;
+  // Takes the last entry of the body away. REQUIRES: contains(set, body).
+  Set without(Set set, uint32_t body) {
+    const Node head = nodes_[set];
+    if (!head.is_left && head.body == body) return head.before;
+    find_present(set);
+    present_.erase(std::find(present_.begin(), present_.end(), body));
+    if (present_.size() <= kFewMedia) {  // a new history, which keeps walks short
+      std::reverse(present_.begin(), present_.end());
+      return of(present_);
+    }
+    uint32_t top = present_[0];
+    for (const uint32_t other : present_) {
+      if (priority(other) > priority(top)) top = other;
+    }
+    return push({body, set, top, true});
+  }
+  bool contains(Set set, uint32_t body) const {
+    int left = 0;
+    for (Set at = set; at != kOpenAir; at = nodes_[at].before) {
+      if (nodes_[at].body != body) continue;
+      left += nodes_[at].is_left ? 1 : -1;
+      if (left < 0) return true;
     }
     return false;
   }
   // The body whose medium counts; kNone: the open air.
-  uint32_t top(const CompiledScene& scene) const {
-    uint32_t best = kNone;
-    for (int i = 0; i < count_; ++i) {
-      if (best == kNone || priority(scene, bodies_[i]) >= priority(scene, best)) best = bodies_[i];
-    }
-    return best;
-  }
-  double ior(const CompiledScene& scene) const {
-    const uint32_t body = top(scene);
-    return body == kNone ? 1.0 : scene.materials[scene.bodies[body].material].source.ior;
+  uint32_t top(Set set) const { return set == kOpenAir ? kNone : nodes_[set].top; }
+  double ior(Set set) const {
+    return set == kOpenAir ? 1.0 : scene_.materials[scene_.bodies[nodes_[set].top].material].source.ior;
   }
 
+  // Sets made since size() was `size` are no more.
+  size_t size() const { return nodes_.size(); }
+  void shrink(size_t size) { nodes_.resize(size); }
+
  private:
-  static int priority(const CompiledScene& scene, uint32_t body) {
-    return scene.materials[scene.bodies[body].material].source.priority;
+  // A body is entered or left after what went before.
+  struct Node {
+    uint32_t body = kNone;
+    Set before = kOpenAir;
+    uint32_t top = kNone;  // of the set that this node is
+    bool is_left = false;
+  };
+  static constexpr size_t kFewMedia = 4;
+
+  int priority(uint32_t body) const { return scene_.materials[scene_.bodies[body].material].source.priority; }
+  Set push(const Node& node) {
+    nodes_.push_back(node);
+    return static_cast<Set>(nodes_.size() - 1);
   }
-  std::array<uint32_t, kCapacity> bodies_{};
-  int count_ = 0;
+  // Fills present_, the last entered first.
+  void find_present(Set set) {
+    present_.clear();
+    left_.clear();
+    for (; set != kOpenAir; set = nodes_[set].before) {
+      const Node& node = nodes_[set];
+      if (node.is_left) {
+        left_.push_back(node.body);
+      } else if (const auto it = std::find(left_.begin(), left_.end(), node.body); it != left_.end()) {
+        left_.erase(it);
+      } else {
+        present_.push_back(node.body);
+      }
+    }
+  }
+
+  const CompiledScene& scene_;
+  std::vector<Node> nodes_;
+  std::vector<uint32_t> present_, left_;  // scratch of find_present
 };
 
 // The media on both sides of a medium's surface, as a ray meets it.
 struct Crossing {
-  MediaSet before, after;
+  MediaSets::Set before, after;
   bool is_seen = true;  // false where another medium fills the inner side: the surface is passed unbent
 
-  Crossing(const CompiledScene& scene, const MediaSet& media, uint32_t body, bool from_outside)
-      : before(media), after(media) {
-    MediaSet& inner = from_outside ? after : before;
+  Crossing(MediaSets& sets, MediaSets::Set media, uint32_t body, bool from_outside) : before(media), after(media) {
+    MediaSets::Set& inner = from_outside ? after : before;
     // A body that is left without having been entered counts as entered.
-    if (from_outside || !inner.contains(body)) inner.enter(body);
-    is_seen = inner.top(scene) == body;
-    if (from_outside) return;
-    after = before;
-    after.leave(body);
+    if (from_outside || !sets.contains(inner, body)) inner = sets.with(inner, body);
+    is_seen = sets.top(inner) == body;
+    if (!from_outside) after = sets.without(before, body);
   }
 };
 

@@ -2,7 +2,6 @@
 // Scatter: the mirror and the refracted ray that leave a surface, and their weights. Pure; any thread.
 #pragma once
 
-#include "renderer/shade/media.h"
 #include "renderer/shade/surface.h"
 
 namespace tilelight {

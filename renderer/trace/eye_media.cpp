@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "renderer/trace/eye_media.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "renderer/compile/passes.h"
+#include "renderer/shade/surface.h"
 #include "renderer/trace/intersect.h"
-#include "renderer/trace/tile_job.h"
+#include "renderer/trace/trace_rays.h"
 
 namespace tilelight {
 namespace {
@@ -14,24 +17,15 @@ namespace {
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
 constexpr auto kExact = [] { return Vec3(0.0); };
 
-// Inside or outside by the sign of Ng.d at the nearest triangle along the ray; every triangle is tried, since this is
-// asked once a view.
-std::optional<double> mesh_exit(const CompiledMesh& mesh, const LocalRay& ray) {
-  const Shear shear(ray.direction);
-  double nearest = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  for (const auto& tri : mesh.triangles) {
-    const Vec3 &a = mesh.positions[tri[0]], &b = mesh.positions[tri[1]], &c = mesh.positions[tri[2]];
-    TriangleHit hit;
-    if (!intersect_triangle(a, b, c, ray.origin, shear, hit) || !(hit.t > 0.0) || !(hit.t < nearest)) continue;
-    nearest = hit.t;
-    inside = glm::dot(glm::cross(b - a, c - a), ray.direction) > 0.0;
-  }
-  return inside ? std::optional(nearest) : std::nullopt;
+// Inside or outside by the sign of Ng.d at the nearest triangle along the ray.
+std::optional<double> mesh_exit(const CompiledScene& scene, uint32_t index, const Ray& ray) {
+  const Hit hit = trace_body(scene, index, ray);
+  return hit.is_hit() && !make_surface(scene, ray, hit).from_outside ? std::optional(hit.t) : std::nullopt;
 }
 
 // How far it is along the ray to the surface of the body; none if the ray starts outside.
-std::optional<double> exit_distance(const CompiledBody& body, const Ray& world_ray) {
+std::optional<double> exit_distance(const CompiledScene& scene, uint32_t index, const Ray& world_ray) {
+  const CompiledBody& body = scene.bodies[index];
   const LocalRay ray = to_local(body, world_ray);
   const Vec3 p = glm::abs(ray.origin);
   double t = 0.0;
@@ -44,27 +38,74 @@ std::optional<double> exit_distance(const CompiledBody& body, const Ray& world_r
       if (!(p.x < body.half.x && p.y < body.half.y && p.z < body.half.z)) return std::nullopt;
       return intersect_box(body.half, ray, kNone, kAhead, kExact, t, face) ? std::optional(t) : std::nullopt;
     case BodyKind::mesh:
-      return mesh_exit(*body.mesh, ray);
+      return mesh_exit(scene, index, world_ray);
     case BodyKind::plane:
       break;
   }
   return std::nullopt;
 }
 
+struct Interval {
+  double low, high;
+};
+// The values of (p - origin) . axis over a box.
+Interval reach_along(const Box& box, const Vec3& origin, const Vec3& axis) {
+  const double middle = glm::dot(0.5 * (box.lo + box.hi) - origin, axis);
+  const double rounding = 0x1p-40 * (1.0 + glm::length(origin));  // more than there is
+  const double half = glm::dot(0.5 * (box.hi - box.lo) + rounding, glm::abs(axis));
+  return {middle - half, middle + half};
+}
+
 }  // namespace
 
-MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan) {
-  // Along no axis or diagonal of a modelled shape.
-  const Ray ray{plan.eye.origin, glm::normalize(Vec3(0.31415, 0.59265, 0.35897)), {}};
-  std::vector<std::pair<double, uint32_t>> around;  // by distance, the farthest first: the order of entering
-  for (uint32_t i = 0; i < scene.finite_bodies; ++i) {
-    const CompiledBody& body = scene.bodies[i];
-    if (!body.closed || !scene.materials[body.material].is_transmissive) continue;
-    if (const auto exit = exit_distance(body, ray)) around.emplace_back(-*exit, i);
+EyeMedia::EyeMedia(const CompiledScene& scene, const ViewPlan& plan) : scene_(scene) {
+  if (plan.eye.projection == Projection::orthographic) {
+    find_cuts(plan.eye);
+    return;
   }
-  std::sort(around.begin(), around.end());
-  MediaSet media;
-  for (const auto& [order, body] : around) media.enter(body);
+  MediaList all;
+  for (uint32_t i = 0; i < scene.finite_bodies; ++i) {
+    if (is_medium(i)) all.push_back(i);
+  }
+  around_all_ = around(plan.eye.origin, all);
+}
+
+bool EyeMedia::is_medium(uint32_t body) const {
+  return scene_.bodies[body].closed && scene_.materials[scene_.bodies[body].material].is_transmissive;
+}
+
+void EyeMedia::find_cuts(const Eye& eye) {
+  const Vec3 corner = eye.origin + eye.corner;
+  for (uint32_t i = 0; i < scene_.finite_bodies; ++i) {
+    if (!is_medium(i)) continue;
+    const Box box = body_bounds(scene_.bodies[i]);
+    const Interval depth = reach_along(box, corner, eye.forward);
+    if (depth.low > 0.0 || depth.high < 0.0) continue;
+    const Interval x = reach_along(box, corner, eye.step_x / glm::dot(eye.step_x, eye.step_x));
+    const Interval y = reach_along(box, corner, eye.step_y / glm::dot(eye.step_y, eye.step_y));
+    cuts_.push_back({i, x.low, y.low, x.high, y.high});
+  }
+}
+
+MediaList EyeMedia::some_near(const TileRect& pixels) const {
+  MediaList some;
+  for (const Cut& cut : cuts_) {  // NaN, of pixels too small to divide by, may be anywhere
+    if (cut.x0 > pixels.x1 || cut.x1 < pixels.x0 || cut.y0 > pixels.y1 || cut.y1 < pixels.y0) continue;
+    some.push_back(cut.body);
+  }
+  return some;
+}
+
+MediaList EyeMedia::around(const Vec3& start, std::span<const uint32_t> some) const {
+  // Along no axis or diagonal of a modelled shape.
+  const Ray ray{start, glm::normalize(Vec3(0.31415, 0.59265, 0.35897)), {}};
+  std::vector<std::pair<double, uint32_t>> found;  // by distance, the farthest first: the order of entering
+  for (const uint32_t body : some) {
+    if (const auto exit = exit_distance(scene_, body, ray)) found.emplace_back(-*exit, body);
+  }
+  std::sort(found.begin(), found.end());
+  MediaList media;
+  for (const auto& [order, body] : found) media.push_back(body);
   return media;
 }
 

@@ -11,6 +11,4 @@ Kernel kernel_of(KernelVariant variant) {
   return kKernels[static_cast<size_t>(variant)];
 }
 
-Kernel explain_kernel() { return run_explain; }
-
 }  // namespace tilelight

@@ -11,7 +11,8 @@ class PrimaryListener : public RayListener {
   explicit PrimaryListener(const CompiledScene& scene) : scene_(scene) {}
   void on_ray(const Event& event) override {
     if (event.depth > 0 || std::string_view(event.kind) != "primary") return;
-    ids.push_back(event.hit.is_hit() ? uint64_t{scene_.bodies[event.hit.body].body} << 32 | event.hit.prim : ~uint64_t{0});
+    ids.push_back(event.hit.is_hit() ? uint64_t{scene_.bodies[event.hit.body].body} << 32 | event.hit.prim
+                                     : ~uint64_t{0});
   }
   void on_light(const CompiledLight&, const LightSample&, const Color&) override {}
 
@@ -28,16 +29,7 @@ std::vector<uint64_t> primary_ids(const CompiledScene& scene, const ViewPlan& pl
   first_hits.view.render.max_depth = 0;
   first_hits.view.render.shadows = false;
   PrimaryListener listener(scene);
-  TileCounts counts;
-  const MediaSet eye_media = media_at_eye(scene, plan);
-  TileJob job;
-  job.scene = &scene;
-  job.plan = &first_hits;
-  job.eye_media = &eye_media;
-  job.rect = {0, 0, plan.view.image.width, plan.view.image.height};
-  job.counts = &counts;
-  job.listener = &listener;
-  explain_kernel()(job);
+  explain(scene, first_hits, EyeMedia(scene, plan), {0, 0, plan.view.image.width, plan.view.image.height}, 0, listener);
   return std::move(listener.ids);
 }
 

@@ -11,7 +11,7 @@
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/film/film.h"
 #include "renderer/shade/light_equation.h"
-#include "renderer/shade/media.h"
+#include "renderer/trace/eye_media.h"
 
 namespace tilelight {
 
@@ -44,21 +44,22 @@ class RayListener {
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
-  const MediaSet* eye_media = nullptr;  // of an eye inside glass
-  TileView* film = nullptr;             // null: nothing is written (explanations)
+  const EyeMedia* eye_media = nullptr;
+  TileView* film = nullptr;  // null: nothing is written (explanations)
   TileRect rect;
   uint32_t first_sample = 0, sample_count = 1;
   const std::atomic<bool>* cancelled = nullptr;  // read every row; may be null
   TileCounts* counts = nullptr;
-  RayListener* listener = nullptr;  // kernel `explain` only
+  RayListener* listener = nullptr;  // explain() alone sets it
 };
 
 using Kernel = void (*)(const TileJob&);
 
 Kernel kernel_of(KernelVariant variant);
-Kernel explain_kernel();
 
-// The media around the view's eye.
-MediaSet media_at_eye(const CompiledScene& scene, const ViewPlan& plan);
+// Traces one sample of every pixel of the tile, whatever the view's kernel is, and tells the listener of every ray.
+// Nothing is written.
+TileCounts explain(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect,
+                   uint32_t sample, RayListener& listener);
 
 }  // namespace tilelight

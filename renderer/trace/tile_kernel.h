@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renderer/film/sampling.h"
+#include "renderer/shade/media.h"
 #include "renderer/shade/scatter.h"
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/tile_job.h"
@@ -32,7 +33,12 @@ template <Abilities kCan>
 class TileKernel {
  public:
   explicit TileKernel(const TileJob& job)
-      : job_(job), scene_(*job.scene), plan_(*job.plan), spec_(job.plan->view.render), counts_(*job.counts) {}
+      : job_(job),
+        scene_(*job.scene),
+        plan_(*job.plan),
+        spec_(job.plan->view.render),
+        counts_(*job.counts),
+        media_(*job.scene) {}
 
   void run() {
     constexpr int kBatchPixels = 256;  // about 60 KiB of rays and hits: inside L2, and long enough to be coherent
@@ -50,8 +56,8 @@ class TileKernel {
   // What a ray carries beside its geometry.
   struct Path {
     Color weight;
-    uint32_t sample;  // of the batch
-    uint32_t media;   // index into media_; used by glass alone
+    uint32_t sample;       // of the batch
+    MediaSets::Set media;  // used by glass alone
     int depth;
     const char* kind;
   };
@@ -86,7 +92,7 @@ class TileKernel {
       const size_t media_before = media_.size();
       trace_part(levels_[depth], first, last, levels_[depth + 1]);
       if (!levels_[depth + 1].rays.empty()) follow_levels(depth + 1);
-      media_.resize(media_before, MediaSet());
+      media_.shrink(media_before);
     }
   }
 
@@ -131,21 +137,36 @@ class TileKernel {
     if (levels_.empty()) levels_.emplace_back();
     Level& primary = levels_[0];
     primary.clear();
-    media_.clear();
-    if constexpr (kCan.glass) media_.push_back(*job_.eye_media);
+    enter_eye_media({job_.rect.x0, y0, job_.rect.x1, y1});
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
     for (int y = y0; y < y1; ++y) {
       for (int x = job_.rect.x0; x < job_.rect.x1; ++x, ++sample) {
         const SamplePoint p = sample_point(x, y, spec_.seed, index);
         const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
-        primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample, 0, 0, "primary"});
+        primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample, media_at(ray.origin), 0, "primary"});
       }
     }
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
     spent_.assign(sample, 0);
     untraced_.assign(sample, 0.0);
+  }
+
+  void enter_eye_media(const TileRect& pixels) {
+    media_.shrink(0);
+    if constexpr (kCan.glass) {
+      eye_media_ = media_.of(job_.eye_media->around_all());
+      some_media_ = job_.eye_media->some_near(pixels);
+    }
+  }
+
+  // The media in which a primary ray starts.
+  MediaSets::Set media_at(const Vec3& start) {
+    if constexpr (kCan.glass) {
+      if (!some_media_.empty()) return media_.of(job_.eye_media->around(start, some_media_));
+    }
+    return eye_media_;
   }
 
   void shade(const Ray& ray, const Path& path, const Hit& hit) {
@@ -246,30 +267,26 @@ class TileKernel {
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
     while (hit.is_hit() && is_medium(hit.body)) {
       const Surface surface = make_surface(scene_, ray.ray, hit);
-      const Crossing crossing(scene_, media_[path.media], hit.body, surface.from_outside);
-      if (crossing.is_seen) return;
-      path.media = keep(crossing.after);
+      const size_t media_before = media_.size();
+      const Crossing crossing(media_, path.media, hit.body, surface.from_outside);
+      if (crossing.is_seen) return media_.shrink(media_before);
+      path.media = crossing.after;
       ray.ray = {surface.position, ray.ray.direction, surface.here, Coincident::after};
       trace_closest(scene_, {&ray, 1}, {&hit, 1});
     }
   }
 
-  uint32_t keep(const MediaSet& media) {
-    media_.push_back(media);
-    return static_cast<uint32_t>(media_.size() - 1);
-  }
-
   void scatter(const Ray& ray, const Path& path, const Surface& surface) {
     const CompiledMaterial& m = *surface.material;
     if (!m.is_reflective && !(kCan.glass && m.is_transmissive)) return;
-    uint32_t here = path.media, beyond = path.media;
+    MediaSets::Set here = path.media, beyond = path.media;
     Scatter out;
     if (!kCan.glass || !m.is_transmissive) {
       out = scatter_opaque(surface, ray.direction);
     } else if (is_medium(surface.here.body)) {
-      const Crossing crossing(scene_, media_[path.media], surface.here.body, surface.from_outside);
-      out = scatter_transparent(surface, ray.direction, crossing.before.ior(scene_), crossing.after.ior(scene_));
-      here = keep(crossing.before), beyond = keep(crossing.after);
+      const Crossing crossing(media_, path.media, surface.here.body, surface.from_outside);
+      out = scatter_transparent(surface, ray.direction, media_.ior(crossing.before), media_.ior(crossing.after));
+      here = crossing.before, beyond = crossing.after;
     } else {
       out = scatter_thin(surface, ray.direction);
     }
@@ -284,8 +301,8 @@ class TileKernel {
   static double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
   // Queues a ray of the next level, if depth, weight and budget allow it.
-  bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor, uint32_t media,
-              Coincident coincident, const char* kind) {
+  bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor,
+              MediaSets::Set media, Coincident coincident, const char* kind) {
     const Color weight = path.weight * factor;
     if (!(largest(weight) > 0.0)) return false;
     if (path.depth >= spec_.max_depth || largest(weight) < spec_.weight_cutoff ||
@@ -332,7 +349,9 @@ class TileKernel {
   std::vector<Pending> pending_;  // what each shadow ray decides
   std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
-  std::vector<MediaSet> media_;
+  MediaSets media_;
+  MediaSets::Set eye_media_ = MediaSets::kOpenAir;
+  MediaList some_media_;         // hold the starts of some rays of the batch
   std::vector<Color> radiance_;  // by sample of the batch
   std::vector<int> spent_;       // rays after the primary one
   std::vector<double> untraced_;

@@ -22,4 +22,7 @@ void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays,
 // is_blocked[i] = whether anything lies before rays[i].t_max. REQUIRES: equal sizes.
 void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked);
 
+// The nearest hit with one body alone.
+Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray);
+
 }  // namespace tilelight

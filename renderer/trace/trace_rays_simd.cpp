@@ -20,6 +20,10 @@ void trace_any_rays(const CompiledScene& scene, std::span<const BoundedRay> rays
   for (size_t i = 0; i < rays.size(); ++i) is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit();
 }
 
+void trace_body_ray(const CompiledScene& scene, uint32_t body, const Ray& ray, Hit& hit) {
+  hit = Walk<false>(scene, {ray}).run_body(body);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tilelight
 HWY_AFTER_NAMESPACE();
@@ -29,6 +33,7 @@ namespace tilelight {
 
 HWY_EXPORT(trace_closest_rays);
 HWY_EXPORT(trace_any_rays);
+HWY_EXPORT(trace_body_ray);
 
 void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
   HWY_DYNAMIC_DISPATCH(trace_closest_rays)(scene, rays, hits);
@@ -36,6 +41,12 @@ void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays,
 
 void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked) {
   HWY_DYNAMIC_DISPATCH(trace_any_rays)(scene, rays, is_blocked);
+}
+
+Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray) {
+  Hit hit;
+  HWY_DYNAMIC_DISPATCH(trace_body_ray)(scene, body, ray, hit);
+  return hit;
 }
 
 }  // namespace tilelight

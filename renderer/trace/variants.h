@@ -12,6 +12,5 @@ void run_mirrors(const TileJob& job);
 void run_mirrors_shadows(const TileJob& job);
 void run_glass(const TileJob& job);
 void run_glass_shadows(const TileJob& job);
-void run_explain(const TileJob& job);
 
 }  // namespace tilelight

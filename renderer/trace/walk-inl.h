@@ -242,6 +242,11 @@ class Walk {
     return best_;
   }
 
+  Hit run_body(uint32_t index) {
+    visit_body(index);
+    return best_;
+  }
+
  private:
   // True if the body gave a nearer hit.
   bool visit_body(uint32_t index) {

@@ -65,5 +65,27 @@ TEST(Agreement, HoldsWhereSurfacesAndMediaMeetInOnePlace) {
   }
 }
 
+// Each ray of an orthographic view starts in the media of its own place on the image plane.
+TEST(Agreement, HoldsWhereTheImagePlaneCutsMedia) {
+  const std::string common = R"({"image": {"width": 64, "height": 64}, "render": {"max_depth": 5},
+    "materials": {"glass": {"diffuse": 0.05, "transmission": [0.9, 0.6, 0.6]},
+                  "water": {"diffuse": 0, "transmission": 0.9, "ior": 1.33, "priority": -1}},
+    "objects": [{"type": "sphere", "center": [-1, 0.5, 0.5], "material": "glass"},
+                {"type": "box", "min": [-2, -1, -2], "max": [0.5, 0.4, 2], "material": "water"},
+                {"type": "chess_piece", "piece": "pawn", "position": [1, -0.5, 0], "detail": 16, "material": "glass"},
+                {"type": "sphere", "center": [0, 0, -4], "radius": 1.5, "material": "glass"},
+                {"type": "plane", "point": [0, -2, 0], "material": {"diffuse": {"checker": {}}}}],
+    "camera": {"type": "orthographic", "height": 4, )";
+  TilePool pool;
+  for (const char* place : {R"("position": [0, 0, 0.1], "target": [0, -0.3, -4])", R"("position": [-1, 0.5, 0.5])",
+                            R"("position": [3, 1, 0.2], "target": [0, 0, 0])"}) {
+    const auto parsed = parse_scene(common + place + "}}", Limits{});
+    ASSERT_TRUE(parsed) << parsed.error().errors[0].detail;
+    const ImageDifference d = judge_view(parsed->scene, parsed->view, pool).difference;
+    EXPECT_EQ(d.id_mismatches, 0) << place;
+    EXPECT_LE(d.q8_differing, 2) << place;
+  }
+}
+
 }  // namespace
 }  // namespace tilelight

@@ -206,6 +206,25 @@ TEST(Render, CountsItsRaysAndBoundsWhatItLeftUntraced) {
   EXPECT_LE(point.truncation_bound, 0.0625 + 1e-12);
 }
 
+TEST(Render, TheTruncationBoundIsNotShortByARounding) {
+  constexpr const char* kMirrors = R"({"image": {"width": 1, "height": 1}, "lights": [], "ambient": 0.1,
+    "camera": {"type": "orthographic", "height": 0.1, "position": [0, 0, 0], "target": [0, 0, -1]},
+    "render": {"samples": 1, "max_depth": %d, "weight_cutoff": 0},
+    "materials": {"m": {"ambient": 1, "diffuse": 0, "reflection": 0.99}}, "background": {"bottom": 0, "top": 0},
+    "objects": [{"type": "plane", "point": [0, 0, -1], "normal": [0, 0, 1], "material": "m"},
+                {"type": "plane", "point": [0, 0, 1], "normal": [0, 0, 1], "material": "m"}]})";
+  TilePool pool(2);
+  for (const int depth : {1, 5, 50, 100, 1000}) {
+    std::string json(kMirrors);
+    json.replace(json.find("%d"), 2, std::to_string(depth));
+    const Prepared p = prepare(pool, json.c_str());
+    const auto render = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, p.view));
+    render->wait_ms(1e12);
+    const long double missing = 0.1L * std::pow(static_cast<long double>(0.99), depth + 1) / (1.0L - 0.99);
+    EXPECT_GE(render->report().points.back().truncation_bound, missing) << depth;
+  }
+}
+
 TEST(PredictCost, ForetellsTheRaysOfTheRender) {
   TilePool pool(2);
   Prepared p = prepare(pool);

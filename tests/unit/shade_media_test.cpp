@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sets of media against a plain list.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "renderer/shade/media.h"
+
+namespace tilelight {
+namespace {
+
+// Bodies 0, 1, ... of priorities 0, 1, 2, 0, 1, 2, ..., each of its own index of refraction.
+CompiledScene many_media(uint32_t count) {
+  CompiledScene scene;
+  for (uint32_t i = 0; i < count; ++i) {
+    CompiledMaterial m;
+    m.source.ior = 1.0 + i;
+    m.source.priority = static_cast<int>(i % 3);
+    scene.materials.push_back(m);
+    CompiledBody body;
+    body.material = i;
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+// The same by the book: a list in the order of entering.
+struct PlainList {
+  std::vector<uint32_t> bodies;
+  uint32_t top() const {
+    uint32_t best = kNone;
+    for (const uint32_t b : bodies) {
+      if (best == kNone || b % 3 >= best % 3) best = b;
+    }
+    return best;
+  }
+  bool contains(uint32_t body) const { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); }
+  void leave(uint32_t body) { bodies.erase(std::next(std::find(bodies.rbegin(), bodies.rend(), body)).base()); }
+};
+
+TEST(MediaSets, FollowAPlainListThroughAnyCrossings) {
+  constexpr uint32_t kBodies = 60;
+  const CompiledScene scene = many_media(kBodies);
+  MediaSets sets(scene);
+  std::mt19937 random(1);
+  std::vector<std::pair<MediaSets::Set, PlainList>> known = {{MediaSets::kOpenAir, {}}};
+  for (int step = 0; step < 20000; ++step) {
+    // From any set that was ever made, mostly from the last one: rays branch.
+    const size_t from = random() % 4 ? known.size() - 1 : random() % known.size();
+    auto [set, list] = known[from];
+    const auto body = static_cast<uint32_t>(random() % kBodies);
+    if (list.contains(body) && random() % 3) {
+      set = sets.without(set, body);
+      list.leave(body);
+    } else {
+      set = sets.with(set, body);
+      list.bodies.push_back(body);
+    }
+    ASSERT_EQ(sets.top(set), list.top()) << step;
+    ASSERT_EQ(sets.ior(set), list.bodies.empty() ? 1.0 : 1.0 + list.top()) << step;
+    const auto asked = static_cast<uint32_t>(random() % kBodies);
+    ASSERT_EQ(sets.contains(set, asked), list.contains(asked)) << step;
+    known.emplace_back(set, list);
+  }
+}
+
+TEST(MediaSets, ForgetNoneOfAThousandMediaInsideEachOther) {
+  constexpr uint32_t kBodies = 1000;
+  CompiledScene scene = many_media(kBodies);
+  for (CompiledMaterial& m : scene.materials) m.source.priority = 0;
+  MediaSets sets(scene);
+  MediaSets::Set set = MediaSets::kOpenAir;
+  for (uint32_t i = 0; i < kBodies; ++i) set = sets.with(set, i);
+  for (uint32_t i = kBodies; i-- > 0;) {
+    ASSERT_EQ(sets.top(set), i);
+    set = sets.without(set, i);
+  }
+  EXPECT_EQ(set, MediaSets::kOpenAir);
+}
+
+TEST(MediaSets, GrowByAHandfulOfNodesACrossingHoweverManyMediaOverlap) {
+  constexpr uint32_t kBodies = 500;
+  const CompiledScene scene = many_media(kBodies);
+  MediaSets sets(scene);
+  MediaSets::Set set = MediaSets::kOpenAir;
+  for (uint32_t i = 0; i < kBodies; ++i) set = sets.with(set, i);
+  for (uint32_t i = 0; i < kBodies; ++i) set = sets.without(set, i);  // first in, first out
+  EXPECT_EQ(set, MediaSets::kOpenAir);
+  EXPECT_LE(sets.size(), size_t{2 * kBodies + 20});
+}
+
+}  // namespace
+}  // namespace tilelight
