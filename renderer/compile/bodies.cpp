@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/compile/bodies.h"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
+#include "renderer/base/double_double.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/geometry/chess_set.h"
 
@@ -25,8 +27,8 @@ Mat4 scaling(const Vec3& by) {
 // The rotation that turns +Y to `normal`, with axes fixed by the normal alone.
 Mat4 frame_of_plane(const PlaneShape& plane) {
   const Vec3 y = safe_normalize(plane.normal);
-  const Vec3 helper = std::abs(y.x) < 0.9 * std::abs(y.y) || std::abs(y.x) < 0.9 * std::abs(y.z) ? Vec3(1, 0, 0)
-                                                                                                  : Vec3(0, 0, 1);
+  const Vec3 helper =
+      std::abs(y.x) < 0.9 * std::abs(y.y) || std::abs(y.x) < 0.9 * std::abs(y.z) ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
   const Vec3 z = glm::normalize(glm::cross(helper, y));
   const Vec3 x = glm::cross(y, z);
   Mat4 m(1.0);
@@ -36,6 +38,27 @@ Mat4 frame_of_plane(const PlaneShape& plane) {
 
 // Black's men look towards White: half a turn about +Y, exact.
 Mat4 facing(Side side) { return side == Side::white ? Mat4(1.0) : scaling(Vec3(-1.0, 1.0, -1.0)); }
+
+// |m * p - place| as exactly as two doubles a number can tell.
+Vec3 distance_off(const Mat4& m, const Vec3& p, const Vec3& place) {
+  Vec3 off(0.0);
+  for (int row = 0; row < 3; ++row) {
+    DoubleDouble exact{m[3][row], 0.0};
+    for (int column = 0; column < 3; ++column) exact = exact + two_product(m[column][row], p[column]);
+    off[row] = std::abs((exact.hi - place[row]) + exact.lo);
+  }
+  return off;
+}
+
+Vec3 rounding_of(const BoxShape& box, const Mat4& world_from_shape, const Mat4& world_from_local) {
+  Vec3 sides(0.0), out(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    sides[axis] = 0.5 * (std::abs(two_sum(box.min[axis], box.max[axis]).lo) +
+                         std::abs(two_sum(box.max[axis], -box.min[axis]).lo));
+  }
+  for (int column = 0; column < 3; ++column) out += glm::abs(Vec3(world_from_shape[column])) * sides[column];
+  return out + distance_off(world_from_shape, 0.5 * (box.min + box.max), Vec3(world_from_local[3]));
+}
 
 class BodyMaker {
  public:
@@ -69,7 +92,9 @@ class BodyMaker {
   void place(const BoxShape& box) { add_box(box, object().material, {}); }
 
   void add_box(const BoxShape& box, MaterialId material, const std::string& part) {
-    add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part).half = 0.5 * (box.max - box.min);
+    Body& body = add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part);
+    body.half = 0.5 * (box.max - box.min);
+    body.rounding = rounding_of(box, object().world_from_shape, body.world_from_local);
   }
 
   void place(const PlaneShape& plane) { add(BodyKind::plane, frame_of_plane(plane), object().material); }

@@ -23,13 +23,16 @@ struct Body {
   BodyKind kind = BodyKind::sphere;
   Mat4 world_from_local{1.0};  // never singular
   Vec3 half{1.0};              // kind box only
+  // Kind box only: how far its faces lie from where the document puts them, by the rounding of its middle, its half
+  // sides and its place; scene units, by axis of the world.
+  Vec3 rounding{0.0};
   // The frame in which a checker counts its cells: unit lengths are scene units, before the user's transform.
   // pattern = pattern_from_local * local point.
   Mat4 pattern_from_local{1.0};
   MaterialId material = 0;
-  uint32_t object = 0;  // index into Scene::objects
+  uint32_t object = 0;                  // index into Scene::objects
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
-  std::string name;     // "objects/3", or "objects/0/e4" for a man of a chess position
+  std::string name;                     // "objects/3", or "objects/0/e4" for a man of a chess position
 };
 
 // Ids of bodies are their places in this list; ties between surfaces go to the lower id.

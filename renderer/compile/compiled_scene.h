@@ -43,6 +43,7 @@ struct CompiledBody {
   uint32_t body = 0;        // index into make_bodies' list: the public id
   const CompiledMesh* mesh = nullptr;
   Vec3 half{1.0};
+  Vec3 rounding{0.0};  // of a box's faces, see Body; local units
   Mat4 local_from_world{1.0};
   Mat4 world_from_local{1.0};
   Mat3 world_from_normal{1.0};  // cofactor matrix, sign by determinant: takes outward to outward

@@ -62,9 +62,7 @@ double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center
   return radius;
 }
 
-Mat3 cofactor(const Mat3& m) {
-  return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
+Mat3 cofactor(const Mat3& m) { return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])); }
 
 void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_local = world_from_local;
@@ -87,10 +85,14 @@ void set_world(CompiledBody& body, const Mat4& world_from_local) {
 
 bool encloses(const Body& body) {
   switch (body.kind) {
-    case BodyKind::sphere: return true;
-    case BodyKind::box: return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
-    case BodyKind::mesh: return body.mesh->closed;
-    case BodyKind::plane: return false;
+    case BodyKind::sphere:
+      return true;
+    case BodyKind::box:
+      return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
+    case BodyKind::mesh:
+      return body.mesh->closed;
+    case BodyKind::plane:
+      return false;
   }
   return false;
 }
@@ -108,8 +110,8 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
       out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
       out.plan.memory_bytes += mesh->memory_bytes();
       if (body.mesh->degenerate_dropped > 0) {
-        out.plan.left_out.push_back({std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name,
-                                     "they have no area"});
+        out.plan.left_out.push_back(
+            {std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name, "they have no area"});
       }
     }
   }
@@ -165,6 +167,9 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
       for (int axis = 0; axis < 3; ++axis) world[column][axis] /= n.units;
     }
     set_world(body, world);
+    for (int column = 0; column < 3; ++column) {
+      body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (bodies[body.body].rounding[column] / n.units);
+    }
   }
   out.plan.bodies = static_cast<int64_t>(out.bodies.size());
   out.plan.bounds_min = bounds.lo;

@@ -78,13 +78,14 @@ bool intersect_sphere(const LocalRay& ray, bool has_left, const IsAhead& is_ahea
   return t == near || is_ahead(far, 0);
 }
 
-// How far the ray and a body's faces may lie, in the body's local space, from where the numbers of the scene put them:
-// a few roundings of places in the user's units, of the rebase, the matrices and the direction, with a margin. By axis
-// of that space.
-inline Vec3 local_rounding(const CompiledScene& scene, const CompiledBody& body, const Ray& ray) {
+// How far the ray and a box's faces may lie, in the box's local space, from where the numbers of the scene put them:
+// what the document's own numbers were rounded by, and a few roundings of the rebase, the matrices and the direction,
+// with a margin. By axis of that space.
+inline Vec3 local_rounding(const CompiledBody& body, const Ray& ray) {
   const Mat4& m = body.local_from_world;
-  const Vec3 size = 1.0 + glm::abs(ray.origin) + glm::abs(scene.center) / scene.units;
-  return 0x1p-49 * (glm::abs(Vec3(m[0])) * size.x + glm::abs(Vec3(m[1])) * size.y + glm::abs(Vec3(m[2])) * size.z);
+  const Vec3 size = 1.0 + glm::abs(ray.origin);
+  return body.rounding +
+         0x1p-50 * (glm::abs(Vec3(m[0])) * size.x + glm::abs(Vec3(m[1])) * size.y + glm::abs(Vec3(m[2])) * size.z);
 }
 
 struct BoxSpan {

@@ -265,7 +265,7 @@ class Walk {
       case BodyKind::box:
         if (!intersect_box(
                 body.half, local, has_left ? ray_.left.prim : kNone, is_ahead,
-                [&] { return local_rounding(scene_, body, ray_); }, t, prim)) {
+                [&] { return local_rounding(body, ray_); }, t, prim)) {
           return false;
         }
         break;
