@@ -152,7 +152,7 @@ std::vector<Bad> bad_documents() {
       {"raytracing", with(R"("render": {"algorithm": "raytracing"})"), "unknown_word", "/render/algorithm"},
       {"flat", with(R"("render": {"shading": "flat"})"), "not_in_this_release", "/render/shading"},
       {"gouraud", with(R"("render": {"shading": "gouraud"})"), "not_in_this_release", "/render/shading"},
-      {"soft_terminator", with(R"("render": {"terminator": "soft"})"), "unknown_name", "/render/terminator"},
+      {"soft_terminator", with(R"("render": {"terminator": "soft"})"), "unknown_word", "/render/terminator"},
       {"tent", with(R"("render": {"filter": "tent"})"), "not_in_this_release", "/render/filter"},
       {"tessellate", with(R"("render": {"tessellate": true})"), "not_in_this_release", "/render/tessellate"},
       {"rmse", with(R"("render": {"rmse": 0.01})"), "not_in_this_release", "/render/rmse"},
