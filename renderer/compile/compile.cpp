@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/standard_floats.h"
 #include "renderer/compile/passes.h"
 
 namespace tilelight {
@@ -28,6 +29,7 @@ void rebase_lights(CompiledScene& scene) {
 }  // namespace
 
 std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool& pool) {
+  const StandardFloats floats;
   const Stopwatch watch;
   auto out = std::make_shared<CompiledScene>();
   LeftOutList left_out;
@@ -60,6 +62,7 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
 const Plan& scene_plan(const CompiledScene& scene) { return scene.plan; }
 
 Camera framed_camera(const CompiledScene& scene, int width, int height) {
+  const StandardFloats floats;
   using namespace elementary;
   constexpr double kMargin = 1.05;
   const double azimuth = rad_from_deg(30.0), elevation = rad_from_deg(25.0);
@@ -75,6 +78,7 @@ Camera framed_camera(const CompiledScene& scene, int width, int height) {
 }
 
 ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_view isa) {
+  const StandardFloats floats;
   const Stopwatch watch;
   ViewPlan out;
   out.view = view;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/trace/tile_job.h"
 
@@ -94,6 +95,7 @@ double ask_blocks(const CompiledScene& scene, const ViewPlan& plan, const MediaS
 }  // namespace
 
 CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
+  const StandardFloats floats;
   constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
   const MediaSet eye_media = media_at_eye(scene, plan);
   Price price = ask_cells(scene, plan, eye_media);
