@@ -54,6 +54,7 @@ OIIO::ImageSpec spec_for(const Image& image, ImageFormat format) {
   }
   if (format == ImageFormat::jpeg) spec.attribute("compression", "jpeg:92");
   if (format == ImageFormat::exr) spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the library writes the time of day, and one image has many bytes
   spec.attribute("oiio:ColorSpace", format == ImageFormat::exr ? "Linear" : "sRGB");
   return spec;
 }
