@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "renderer/base/facet.h"
 #include "renderer/geometry/chess_set.h"
 
 namespace tilelight {
@@ -23,7 +24,7 @@ Mat4 scaling(const Vec3& by) {
 
 // The rotation that turns +Y to `normal`, with axes fixed by the normal alone.
 Mat4 frame_of_plane(const PlaneShape& plane) {
-  const Vec3 y = glm::normalize(plane.normal);
+  const Vec3 y = unit_or_zero(plane.normal);
   const Vec3 helper = std::abs(y.x) < 0.9 * std::abs(y.y) || std::abs(y.x) < 0.9 * std::abs(y.z) ? Vec3(1, 0, 0)
                                                                                                   : Vec3(0, 0, 1);
   const Vec3 z = glm::normalize(glm::cross(helper, y));

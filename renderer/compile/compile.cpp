@@ -69,7 +69,10 @@ Camera framed_camera(const CompiledScene& scene, int width, int height) {
   Camera camera;
   const double half_y = rad_from_deg(0.5 * camera.fov_y_deg);
   const double half_x = atan2(tan(half_y) * width / height, 1.0);
-  const double radius = scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0;
+  const Vec3 place = glm::abs(scene.bounding_center);
+  // Bodies too small for where they stand: an eye that near would be rounded onto them.
+  const double least = 0x1p-40 * std::max({place.x, place.y, place.z});
+  const double radius = std::max(scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0, least);
   const double distance = kMargin * radius / sin(std::min(half_x, half_y));
   camera.target = scene.bounding_center;
   camera.position =

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "renderer/base/facet.h"
 #include "renderer/compile/compiled_mesh.h"
 #include "renderer/compile/normalise.h"
 #include "renderer/compile/passes.h"
@@ -60,26 +62,52 @@ double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center
   return radius;
 }
 
-Mat3 cofactor(const Mat3& m) {
-  return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+Mat3 cofactor(const Mat3& m) { return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])); }
+
+// The least thickness of a body in normalised units, and the least unit: so that three lengths in a product, and 1e30
+// units of the user, stay within a double. Nothing so thin can be seen.
+constexpr double kLeastThickness = 0x1p-300, kLeastUnits = 0x1p-330;
+
+// The placement in normalised units.
+Mat4 normalised(const Mat4& user_from_local, const Vec3& center, double units) {
+  Mat4 world = user_from_local;
+  world[3] = Vec4(Vec3(world[3]) - center, 1.0);  // subtract before scaling: exact where it can be
+  for (int column = 0; column < 4; ++column) {
+    for (int axis = 0; axis < 3; ++axis) world[column][axis] /= units;
+  }
+  for (int column = 0; column < 3; ++column) {
+    if (!(glm::length(Vec3(world[column])) < kLeastThickness)) continue;
+    Vec3 way = unit_or_zero(Vec3(user_from_local[column]));
+    if (way == Vec3(0.0)) way[column] = 1.0;  // lost in the user's own units
+    world[column] = Vec4(kLeastThickness * way, 0.0);
+  }
+  return world;
 }
 
 void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_local = world_from_local;
-  body.local_from_world = glm::inverse(world_from_local);
   const Mat3 linear(world_from_local);
   // Scaled to about 1 before products are formed, so that neither tiny nor huge bodies under- or overflow.
   const double size = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  const double power = std::ldexp(1.0, std::ilogb(size));  // which rounds nothing
+  Mat4 moderate = world_from_local / power;
+  moderate[3][3] = 1.0;
+  body.local_from_world = glm::inverse(moderate);
+  for (int column = 0; column < 3; ++column) body.local_from_world[column] /= power;
   const Mat3 unit = linear / size;
   body.world_from_normal = glm::determinant(unit) < 0.0 ? -cofactor(unit) : cofactor(unit);
 }
 
 bool encloses(const Body& body) {
   switch (body.kind) {
-    case BodyKind::sphere: return true;
-    case BodyKind::box: return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
-    case BodyKind::mesh: return body.mesh->closed;
-    case BodyKind::plane: return false;
+    case BodyKind::sphere:
+      return true;
+    case BodyKind::box:
+      return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
+    case BodyKind::mesh:
+      return body.mesh->closed;
+    case BodyKind::plane:
+      return false;
   }
   return false;
 }
@@ -97,8 +125,8 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
       out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
       out.plan.memory_bytes += mesh->memory_bytes();
       if (body.mesh->degenerate_dropped > 0) {
-        out.plan.left_out.push_back({std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name,
-                                     "they have no area"});
+        out.plan.left_out.push_back(
+            {std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name, "they have no area"});
       }
     }
   }
@@ -138,20 +166,15 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
 
   const Normalisation n = normalise(bounds);
   out.center = n.center;
-  out.units = n.units;
+  out.units = std::max(n.units, kLeastUnits);
   out.bounding_center = n.center;
-  out.bounding_radius = out.finite_bodies == 0 ? n.units : 0.0;
+  out.bounding_radius = out.finite_bodies == 0 ? out.units : 0.0;
   for (size_t i = 0; i < out.bodies.size(); ++i) {
     CompiledBody& body = out.bodies[i];
     if (i < out.finite_bodies) {
       out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], n.center));
     }
-    Mat4 world = user_from_local[i];
-    world[3] = Vec4(Vec3(world[3]) - n.center, 1.0);  // subtract before scaling: exact where it can be
-    for (int column = 0; column < 4; ++column) {
-      for (int axis = 0; axis < 3; ++axis) world[column][axis] /= n.units;
-    }
-    set_world(body, world);
+    set_world(body, normalised(user_from_local[i], out.center, out.units));
   }
   out.plan.bodies = static_cast<int64_t>(out.bodies.size());
   out.plan.bounds_min = bounds.lo;

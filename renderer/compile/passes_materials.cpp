@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "renderer/base/facet.h"
 #include "renderer/compile/passes.h"
 
 namespace tilelight {
@@ -68,7 +69,7 @@ std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vecto
       CompiledLight compiled;
       compiled.kind = light.kind;
       compiled.position = light.position;
-      if (light.kind == LightKind::directional) compiled.to_light = -glm::normalize(light.direction);
+      if (light.kind == LightKind::directional) compiled.to_light = -unit_or_zero(light.direction);
       compiled.intensity = intensity;
       compiled.shadow = light.shadow;
       compiled.light = static_cast<uint32_t>(i);
