@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing of the package lists beside this script, by apt: packages.txt, and with --test, --load or
-# --fresh also what those need. Costs milliseconds when nothing is missing.
+# Installs what is missing of the package lists beside this script, by apt: packages.txt, and with --test, --fuzz, --load
+# or --fresh also what those need. Costs milliseconds when nothing is missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 lists=("$here/packages.txt")
 for arg in "$@"; do
   case "$arg" in
-    --test|--load|--fresh) lists+=("$here/packages-${arg#--}.txt") ;;
-    *) echo "usage: install-deps.sh [--test] [--load] [--fresh]" >&2; exit 2 ;;
+    --test|--fuzz|--load|--fresh) lists+=("$here/packages-${arg#--}.txt") ;;
+    *) echo "usage: install-deps.sh [--test] [--fuzz] [--load] [--fresh]" >&2; exit 2 ;;
   esac
 done
 mapfile -t wanted < <(sed -e 's/#.*//' -e '/^\s*$/d' "${lists[@]}")

@@ -42,6 +42,7 @@ struct Outcome {
 struct Context {
   TilePool& pool;
   bool is_quick = false;  // smaller images and fewer rays, for the tests
+  std::string command;    // path of the tilelight command, for what needs a process of its own
 };
 
 // One case. Rows are data; `run` is a short function.

@@ -82,7 +82,7 @@ ExitCode run_check(const CheckArguments& arguments) {
   double ms = 0.0;
   for (const Row& row : rows) {
     if (is_interrupted()) return kInterrupted;
-    verdicts.push_back(check::run_row(row, {pool, arguments.is_quick}));
+    verdicts.push_back(check::run_row(row, {pool, arguments.is_quick, "/proc/self/exe"}));
     ms += verdicts.back().ms;
     if (!arguments.json) print_verdict(verdicts.back());
   }

@@ -10,8 +10,8 @@ namespace tilelight {
 namespace {
 
 constexpr int kBins = 16;
-// Under this depth the split falls back to halves by index, so the tree never gets deeper than about 64 levels, also for
-// a hundred thousand equal boxes.
+// Under this depth the split falls back to halves by index, so the tree never gets deeper than about 64 levels, also
+// for a hundred thousand equal boxes.
 constexpr int kMaxSahDepth = 40;
 constexpr int64_t kParallelMin = 1 << 14;  // boxes; smaller subtrees cost less than handing them out
 
@@ -132,17 +132,19 @@ class Builder {
       bins[b].grow(boxes_[order_[i]]);
       ++counts[b];
     }
-    const auto [best_bin, best_cost] = best_split(bins, counts);
+    const Split best = best_split(bins, counts);
     const double leaf_cost = bounds_of(r).half_area() * blocks_of(r.count);
-    if (best_bin < 0 || (r.count <= static_cast<uint32_t>(max_leaf_) && best_cost >= leaf_cost)) return halve(r);
+    if (best.bin < 0 || (r.count <= static_cast<uint32_t>(max_leaf_) && best.cost >= leaf_cost)) return halve(r);
     auto* first = order_.data() + r.first;
-    auto* mid = std::stable_partition(first, first + r.count, [&](uint32_t i) { return bin_of(i) < best_bin; });
+    auto* mid = std::stable_partition(first, first + r.count, [&](uint32_t i) { return bin_of(i) < best.bin; });
     return static_cast<uint32_t>(mid - first);
   }
 
-  // The bin at which the right side begins, and the cost of the best split.
-  std::pair<int, double> best_split(const std::array<Box, kBins>& bins,
-                                    const std::array<uint32_t, kBins>& counts) const {
+  struct Split {
+    int bin;  // at which the right side begins; -1: none
+    double cost;
+  };
+  Split best_split(const std::array<Box, kBins>& bins, const std::array<uint32_t, kBins>& counts) const {
     std::array<double, kBins> right_cost{};
     Box box;
     uint32_t count = 0;

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/standard_floats.h"
 #include "renderer/compile/passes.h"
 
 namespace tilelight {
@@ -30,6 +31,7 @@ void rebase_lights(CompiledScene& scene) {
 }  // namespace
 
 std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool& pool) {
+  const StandardFloats floats;
   const Stopwatch watch;
   auto out = std::make_shared<CompiledScene>();
   LeftOutList left_out;
@@ -62,13 +64,17 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
 const Plan& scene_plan(const CompiledScene& scene) { return scene.plan; }
 
 Camera framed_camera(const CompiledScene& scene, int width, int height) {
+  const StandardFloats floats;
   using namespace elementary;
   constexpr double kMargin = 1.05;
   const double azimuth = rad_from_deg(30.0), elevation = rad_from_deg(25.0);
   Camera camera;
   const double half_y = rad_from_deg(0.5 * camera.fov_y_deg);
   const double half_x = atan2(tan(half_y) * width / height, 1.0);
-  const double radius = scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0;
+  const Vec3 place = glm::abs(scene.bounding_center);
+  // Bodies too small for where they stand: an eye that near would be rounded onto them.
+  const double least = 0x1p-40 * std::max({place.x, place.y, place.z});
+  const double radius = std::max(scene.bounding_radius > 0.0 ? scene.bounding_radius : 1.0, least);
   const double distance = kMargin * radius / sin(std::min(half_x, half_y));
   camera.target = scene.bounding_center;
   camera.position =
@@ -77,6 +83,7 @@ Camera framed_camera(const CompiledScene& scene, int width, int height) {
 }
 
 ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_view isa) {
+  const StandardFloats floats;
   const Stopwatch watch;
   ViewPlan out;
   out.view = view;

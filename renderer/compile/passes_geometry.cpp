@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "renderer/base/facet.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/compile/compiled_mesh.h"
 #include "renderer/compile/normalise.h"
@@ -63,6 +64,28 @@ double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center
 }
 
 Mat3 cofactor(const Mat3& m) { return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])); }
+
+// The least thickness of a body in normalised units, and the least unit: so that three lengths in a product, and 1e30
+// units of the user, stay within a double. Nothing so thin can be seen.
+constexpr double kLeastThickness = 0x1p-300, kLeastUnits = 0x1p-330;
+
+// The placement of a body in normalised units. The centre is subtracted before anything is added or scaled: exact where
+// it can be, however far away the scene is.
+Mat4 normalised(const Body& body, const CompiledMesh* mesh, const Vec3& center, double units) {
+  Mat4 world = body.world_from_local;
+  world[3] = Vec4(Vec3(world[3]) - center, 1.0);
+  if (mesh) world = world * mesh->mesh_from_local;
+  for (int column = 0; column < 4; ++column) {
+    for (int axis = 0; axis < 3; ++axis) world[column][axis] /= units;
+  }
+  for (int column = 0; column < 3; ++column) {
+    if (!(safe_length(Vec3(world[column])) < kLeastThickness)) continue;
+    Vec3 way = unit_or_zero(Vec3(body.world_from_local[column]));
+    if (way == Vec3(0.0)) way[column] = 1.0;  // lost in the user's own units
+    world[column] = Vec4(kLeastThickness * way, 0.0);
+  }
+  return world;
+}
 
 void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_local = world_from_local;
@@ -151,7 +174,7 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
 
   const Normalisation n = normalise(bounds);
   out.center = n.center;
-  out.units = n.units;
+  out.units = std::max(n.units, kLeastUnits);
   out.bounding_center = 0.5 * bounds.lo + 0.5 * bounds.hi;
   out.bounding_radius = out.finite_bodies == 0 ? 1.0 : 0.0;
   for (size_t i = 0; i < out.bodies.size(); ++i) {
@@ -159,17 +182,10 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
     if (i < out.finite_bodies) {
       out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], out.bounding_center));
     }
-    // Subtract before anything else is added or scaled: exact where it can be, however far away the scene is.
-    Mat4 world = bodies[body.body].world_from_local;
-    world[3] = Vec4(Vec3(world[3]) - n.center, 1.0);
-    if (body.mesh) world = world * body.mesh->mesh_from_local;
-    for (int column = 0; column < 4; ++column) {
-      for (int axis = 0; axis < 3; ++axis) world[column][axis] /= n.units;
-    }
-    set_world(body, world);
-    for (int column = 0; column < 3; ++column) {
-      body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (bodies[body.body].rounding[column] / n.units);
-    }
+    const Body& source = bodies[body.body];
+    set_world(body, normalised(source, body.mesh, out.center, out.units));
+    for (int column = 0; column < 3; ++column)
+      body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (source.rounding[column] / out.units);
   }
   out.plan.bodies = static_cast<int64_t>(out.bodies.size());
   out.plan.bounds_min = bounds.lo;

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/standard_floats.h"
 #include "renderer/film/tone.h"
 
 namespace tilelight {
@@ -53,6 +54,7 @@ OIIO::ImageSpec spec_for(const Image& image, ImageFormat format) {
   }
   if (format == ImageFormat::jpeg) spec.attribute("compression", "jpeg:92");
   if (format == ImageFormat::exr) spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the library writes the time of day, and one image has many bytes
   spec.attribute("oiio:ColorSpace", format == ImageFormat::exr ? "Linear" : "sRGB");
   return spec;
 }
@@ -132,6 +134,7 @@ std::optional<ImageFormat> image_format_from_media_type(std::string_view media_t
 std::string_view media_type(ImageFormat format) { return row_of(format).media_type; }
 
 Result<std::string> encode_image(const Image& image, double exposure_stops, ImageFormat format) {
+  const StandardFloats floats;
   use_calling_thread_only();
   const FormatRow& row = row_of(format);
   std::vector<unsigned char> bytes;

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "renderer/base/elementary.h"
+#include "renderer/base/standard_floats.h"
 
 namespace tilelight {
 namespace {
@@ -74,6 +75,7 @@ double displayed(double linear, double exposure_stops) {
 }
 
 std::vector<uint8_t> to_srgb8(const Image& image, double exposure_stops) {
+  const StandardFloats floats;
   static const ByteTable table;
   const double scale = elementary::exp2(exposure_stops);
   std::vector<uint8_t> bytes(image.rgb.size());

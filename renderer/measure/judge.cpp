@@ -35,6 +35,7 @@ Verdict judge_view(const Scene& scene, View view, TilePool& pool) {
   const auto render = Render::start(pool, Priority::normal, compiled, plan);
   while (!render->wait_ms(1e9)) continue;
   verdict.fast_ms = fast_watch.ms();
+  verdict.fast_nonfinite = render->report().points.back().nonfinite;
   verdict.fast = {to_srgb8(*render->image(), view.image.exposure), primary_ids(*compiled, plan)};
 
   const ReferenceScene reference(scene);

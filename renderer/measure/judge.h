@@ -19,6 +19,7 @@ struct Verdict {
   ShownImage fast, shown_reference;
   std::vector<ReferencePixel> reference;
   ImageDifference difference;
+  int64_t fast_nonfinite = 0;                // samples of the fast renderer that were not finite
   double fast_ms = 0.0, reference_ms = 0.0;  // of the tracing alone, wall time
 
   bool passes() const {

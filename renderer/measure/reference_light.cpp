@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "renderer/base/elementary.h"
-#include "renderer/base/safe_length.h"
 
 namespace tilelight::reference {
 namespace {
@@ -30,10 +29,15 @@ double attenuation_factor(const Attenuation& attenuation, double distance) {
   return 1.0;
 }
 
+Vec3 unit(const Vec3& v) {  // also of vectors whose squares leave the range of a double
+  const Vec3 a = glm::abs(v);
+  return glm::normalize(v / std::max({a.x, a.y, a.z}));
+}
+
 // None for a light in the very point: it has no direction.
 std::optional<Incidence> incidence(const Light& light, const Vec3& point, const Attenuation& attenuation) {
   if (light.kind == LightKind::directional)
-    return Incidence{-safe_normalize(light.direction), std::numeric_limits<double>::infinity(), 1.0};
+    return Incidence{-unit(light.direction), std::numeric_limits<double>::infinity(), 1.0};
   const Vec3 way = light.position - point;
   const double distance = glm::length(way);
   if (distance == 0.0) return std::nullopt;

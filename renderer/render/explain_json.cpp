@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/film/tone.h"
 #include "renderer/render/explain.h"
 #include "renderer/trace/tile_job.h"
@@ -78,6 +79,7 @@ class Explainer : public RayListener {
 }  // namespace
 
 Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPlan& plan, int x, int y, int sample) {
+  const StandardFloats floats;
   const ImageSpec& image = plan.view.image;
   if (sample < 0) return fail("out_of_range", "found sample " + std::to_string(sample) + "; allowed: 0 and more");
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/trace/tile_job.h"
 
@@ -96,6 +97,7 @@ double ask_blocks(const CompiledScene& scene, const ViewPlan& plan) {
 }  // namespace
 
 CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
+  const StandardFloats floats;
   constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
   Price price = ask_cells(scene, plan);
   if (price.rays_per_sample < kManyRays) price.ms_per_ray = ask_blocks(scene, plan);

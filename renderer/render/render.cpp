@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/tile_job.h"
@@ -329,6 +330,7 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view) { return plan_v
 
 std::shared_ptr<Render> Render::start(TilePool& pool, Priority priority, std::shared_ptr<const CompiledScene> scene,
                                       ViewPlan plan, RenderOptions options) {
+  const StandardFloats floats;
   auto render = std::make_shared<TileRender>(pool, std::move(scene), std::move(plan), std::move(options));
   pool.add(render, priority);
   return render;

@@ -54,6 +54,7 @@ MaterialId MaterialTable::find(Value object, std::string_view key, MaterialId fa
   if (value.is(JsonKind::object)) return add(read_material(value, read_text(value, "name")), value);
   const auto named = by_name_.find(value.text());
   if (named != by_name_.end()) return named->second;
+  if (problems_.full()) return fallback;
   std::string hint = is_free_key(value.text()) ? "names under \"extras\" or \"x-\" are free keys and no materials"
                      : names_.empty()          ? "the scene has no materials"
                                                : did_you_mean(value.text(), names_);

@@ -94,6 +94,7 @@ class ObjectBuilder {
     if (const Value name = find_accepted(value, "mesh")) {
       const auto mesh = meshes_.by_name.find(name.text());
       if (mesh == meshes_.by_name.end()) {
+        if (problems_.full()) return;
         std::string hint = meshes_.names.empty() ? "the scene has no meshes" : did_you_mean(name.text(), meshes_.names);
         problems_.add(
             name,

@@ -109,6 +109,7 @@ class GrammarCheck {
   // `tagged`: the record was chosen by its "type", which has been seen to.
   void check_record(Value value, const Record& record, bool tagged) {
     for (const Value member : value.children()) {
+      if (problems_.full()) return;  // a complaint costs its words, also if nobody hears it
       if (is_free_key(member.key()) || (tagged && member.key() == "type")) continue;
       const auto field = std::find_if(record.fields.begin(), record.fields.end(),
                                       [member](const Field& f) { return f.key == member.key(); });

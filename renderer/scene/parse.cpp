@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/scene/parse.h"
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/scene/build.h"
 #include "renderer/scene/canonical.h"
 #include "renderer/scene/check.h"
@@ -54,6 +55,7 @@ bool report_newer_version(Value root, Problems& problems) {
 }  // namespace
 
 ::tl::expected<ParsedScene, SceneErrors> parse_scene(std::string_view text, const Limits& limits) {
+  const StandardFloats floats;
   auto document = read_document(text, limits);
   if (!document) return ::tl::unexpected(std::move(document.error()));
   Problems problems;

@@ -100,14 +100,6 @@ class Scanner {
   }
 
  private:
-  static std::vector<Wanted*> narrow(const std::vector<Wanted*>& wanted, size_t depth, const std::string& token) {
-    std::vector<Wanted*> inside;
-    for (Wanted* want : wanted) {
-      if (want->tokens.size() > depth && want->tokens[depth] == token) inside.push_back(want);
-    }
-    return inside;
-  }
-
   static size_t index_from_token(const std::string& token) {
     size_t index = std::string::npos;
     std::from_chars(token.data(), token.data() + token.size(), index);
@@ -115,11 +107,21 @@ class Scanner {
   }
 
   void scan_object(const std::vector<Wanted*>& wanted, size_t depth) {
+    std::vector<std::pair<std::string_view, Wanted*>> by_key;  // a million keys are not compared with every request
+    for (Wanted* want : wanted) {
+      if (want->tokens.size() > depth) by_key.emplace_back(want->tokens[depth], want);
+    }
+    std::sort(by_key.begin(), by_key.end());
+    std::vector<Wanted*> inside;
     ++at_;
     for (skip_blank(); text_[at_] != '}'; skip_blank()) {
       const size_t key_at = at_;
       skip_string();
-      const std::vector<Wanted*> inside = narrow(wanted, depth, unescape(text_.substr(key_at + 1, at_ - key_at - 2)));
+      const std::string key = unescape(text_.substr(key_at + 1, at_ - key_at - 2));
+      inside.clear();
+      auto same = std::lower_bound(by_key.begin(), by_key.end(), key,
+                                   [](const auto& entry, const std::string& k) { return entry.first < k; });
+      for (; same != by_key.end() && same->first == key; ++same) inside.push_back(same->second);
       for (Wanted* want : inside) {
         if (want->at_key && want->tokens.size() == depth + 1) want->offset = key_at;
       }

@@ -99,13 +99,18 @@ std::string describe_found(Value value) {
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
-  constexpr size_t kLongestWord = 64;  // the distance costs the product of the lengths
+  constexpr size_t kLongestWord = 64;  // the distance costs the product of the lengths,
+  constexpr size_t kMostWork =
+      1'000'000;  // milliseconds in all: a scene may have ten thousand names, and a hundred errors
+  size_t work = 0;
   if (word.size() > kLongestWord) return "";
   const size_t reach = std::max<size_t>(1, word.size() / 3);
   std::string_view nearest;
   size_t least = reach + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > word.size() + reach || word.size() > candidate.size() + reach) continue;
+    work += word.size() * candidate.size();
+    if (work > kMostWork) break;
     const size_t distance = edit_distance(word, candidate);
     if (distance < least) {
       least = distance;

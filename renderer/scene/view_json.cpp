@@ -2,6 +2,7 @@
 // A view written as a document, so that overrides can be merged into it and then be checked like any other.
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/scene/build.h"
 #include "renderer/scene/check.h"
 #include "renderer/scene/parse.h"
@@ -67,6 +68,7 @@ std::string merge_over(const View& base, std::string_view text) {
 }  // namespace
 
 ::tl::expected<View, SceneErrors> parse_view(std::string_view text, const View& base, const Limits& limits) {
+  const StandardFloats floats;
   auto overrides = read_document(text, limits);  // bounds the depth, so that json::parse is safe
   if (!overrides) return ::tl::unexpected(std::move(overrides.error()));
   auto document = read_document(merge_over(base, text), limits);

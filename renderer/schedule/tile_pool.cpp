@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/standard_floats.h"
+
 namespace tilelight {
 namespace {
 
@@ -66,6 +68,7 @@ struct TilePool::State {
   ClassQueue& queue(Priority priority) { return classes[static_cast<size_t>(priority)]; }
 
   void work() {
+    const StandardFloats floats;  // not those of the thread that made the pool
     for (;;) {
       const Job job = wait_for_job();
       if (job.stop) return;
@@ -198,6 +201,7 @@ void TilePool::parallel_for(int64_t count, Priority priority, const std::functio
     Loop(int64_t n, const std::function<void(int64_t)>& f) : count(n), left(n), body(f) {}
     // A helper that comes after the last index was handed out touches neither `body`, which may be gone, nor `left`.
     void run() {
+      const StandardFloats floats;
       // Relaxed: the counter only hands out indices; `left` orders their results before the return.
       for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
         body(i);

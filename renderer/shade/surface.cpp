@@ -25,6 +25,7 @@ LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
   } else {
     const auto& n = mesh.corner_normals[hit.prim];
     out.shading = hit.b0 * mesh.normals[n[0]] + hit.b1 * mesh.normals[n[1]] + b2 * mesh.normals[n[2]];
+    if (out.shading == Vec3(0.0)) out.shading = out.geometric;  // opposite normals cancel
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/trace/primary_ids.h"
 
+#include "renderer/base/standard_floats.h"
 #include "renderer/trace/tile_job.h"
 
 namespace tilelight {
@@ -25,6 +26,7 @@ class PrimaryListener : public RayListener {
 }  // namespace
 
 std::vector<uint64_t> primary_ids(const CompiledScene& scene, const ViewPlan& plan) {
+  const StandardFloats floats;
   ViewPlan first_hits = plan;
   first_hits.view.render.max_depth = 0;
   first_hits.view.render.shadows = false;

@@ -2,6 +2,7 @@
 // The kernels against the reference renderer on random scenes, by counts of pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -85,6 +86,22 @@ TEST(Agreement, HoldsWhereTheImagePlaneCutsMedia) {
     EXPECT_EQ(d.id_mismatches, 0) << place;
     EXPECT_LE(d.q8_differing, 2) << place;
   }
+}
+
+TEST(Agreement, HoldsForDirectionsWhoseSquaresAreTooSmallForADouble) {
+  const auto parsed =
+      parse_scene(R"({"image": {"width": 48, "height": 32}, "ambient": 0, "background": {"top": 0, "bottom": 0},
+    "lights": [{"type": "directional", "direction": [-1e-320, -2e-320, -1e-320]}],
+    "objects": [{"type": "sphere"}, {"type": "plane", "point": [0, -1, 0], "normal": [0, 1e-200, 1e-201]}]})",
+                  Limits{});
+  ASSERT_TRUE(parsed) << parsed.error().errors[0].detail;
+  TilePool pool(2);
+  const Verdict verdict = judge_view(parsed->scene, parsed->view, pool);
+  EXPECT_EQ(verdict.difference.id_mismatches, 0);
+  EXPECT_EQ(verdict.difference.q8_differing, 0);
+  EXPECT_EQ(verdict.fast_nonfinite, 0);
+  const auto lit = std::count_if(verdict.fast.rgb.begin(), verdict.fast.rgb.end(), [](uint8_t v) { return v > 100; });
+  EXPECT_GT(lit, 1000) << "the light lights";
 }
 
 }  // namespace

@@ -165,6 +165,36 @@ TEST_F(Compile, TheFramedCameraHoldsTheBoundingSphereInBothDirections) {
   }
 }
 
+TEST_F(Compile, FramesBodiesThatAreTooSmallForWhereTheyStand) {
+  Scene scene = one_sphere();
+  scene.objects = {sphere_at({1e30, -1e30, 1e30}, 1e-30)};
+  const auto compiled = compile_scene(scene, pool_);
+  const Camera camera = framed_camera(*compiled, 16, 9);
+  EXPECT_NE(camera.position, camera.target);
+  const ViewPlan plan = plan_view(*compiled, View{}, "SCALAR");
+  EXPECT_NEAR(glm::length(plan.eye.forward), 1.0, 1e-12);
+}
+
+TEST_F(Compile, KeepsBodiesFiniteThatAreTooSmallForTheirScene) {
+  Scene scene = one_sphere();
+  scene.objects = {sphere_at({0, 0, 0}, 1e-320), sphere_at({1e30, 0, 0}, 1e30), sphere_at({0, 0, 0}, 1e-30)};
+  scene.objects[2].world_from_shape[1] *= 1e-320;
+  const auto compiled = compile_scene(scene, pool_);
+  for (const CompiledBody& body : compiled->bodies) {
+    for (const Mat4& m : {body.world_from_local, body.local_from_world}) {
+      for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) EXPECT_TRUE(std::isfinite(m[column][row])) << body.body;
+      }
+    }
+    EXPECT_GT(glm::length(body.world_from_normal[0]), 0.0);
+  }
+  scene.objects = {sphere_at({0, 0, 0}, 1e-320)};  // alone, with a light far away
+  scene.lights[0].kind = LightKind::point;
+  scene.lights[0].position = Vec3(1e30, 0, 0);
+  const auto alone = compile_scene(scene, pool_);
+  EXPECT_TRUE(std::isfinite(glm::length(alone->lights[0].position)));
+}
+
 TEST_F(Compile, TheRadianceBoundIsTheSumOfTheGeometricSeries) {
   Scene scene = one_sphere();
   scene.background = {Color(0.0), Color(0.0)};
@@ -279,10 +309,10 @@ TEST_F(Compile, ASceneOfAnyUnitIsNormalisedToTheSameBits) {
 
 TEST_F(Compile, ABodyFarSmallerThanTheSceneHasAnInverse) {
   Scene scene = one_sphere();
-  scene.objects.push_back(sphere_at({0, 1, 0}, 1e-200));
+  scene.objects.push_back(sphere_at({0, 1, 0}, 1e-80));
   const auto compiled = compile_scene(scene, pool_);
   const CompiledBody& mote = compiled->bodies[1];
-  EXPECT_NEAR(mote.local_from_world[0][0] * 1e-200 / compiled->units, 1.0, 1e-15);
+  EXPECT_NEAR(mote.local_from_world[0][0] * 1e-80 / compiled->units, 1.0, 1e-15);
   EXPECT_EQ(transform_point(mote.local_from_world, Vec3(mote.world_from_local[3])), Vec3(0.0));
   EXPECT_NEAR(glm::length(mote.world_from_normal * Vec3(0, 1, 0)), 1.0, 1e-15);
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -49,6 +50,15 @@ TEST(ImageIo, PngSaysThatItIsSrgbAndHoldsNoTime) {
   ASSERT_TRUE(bytes);
   EXPECT_NE(bytes->find("sRGB"), std::string::npos);
   EXPECT_EQ(bytes->find("tIME"), std::string::npos);
+}
+
+TEST(ImageIo, NoFormatHoldsTheTimeOfDay) {
+  const std::regex time(R"(\d\d\d\d:\d\d:\d\d)");
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+    const auto bytes = encode_image(gradient(8, 8), 0.0, format);
+    ASSERT_TRUE(bytes) << bytes.error().detail;
+    EXPECT_FALSE(std::regex_search(*bytes, time)) << "of one picture every second has other bytes";
+  }
 }
 
 TEST(ImageIo, JpegIsCloseOnASmoothPicture) {

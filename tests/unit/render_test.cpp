@@ -17,6 +17,7 @@
 #include "renderer/render/render.h"
 #include "renderer/scene/parse.h"
 #include "renderer/trace/isa.h"
+#include "tests/unit/host_floats.h"
 
 namespace tilelight {
 namespace {
@@ -74,6 +75,13 @@ TEST(Render, GivesTheSameBytesOnEveryInstructionSet) {
     EXPECT_EQ(render(2, 32, two_samples), expected) << isa;
   }
   (void)select_isa("auto");
+}
+
+TEST(Render, GivesTheSameBytesWhateverFloatingPointTheHostHasSet) {
+  const auto two_samples = [](RenderSpec& spec) { spec.samples = 2; };
+  const auto expected = render(2, 32, two_samples);
+  for (const test::Host host : {test::Host::flushing, test::Host::upwards})
+    test::on_host(host, [&] { EXPECT_EQ(render(2, 32, two_samples), expected) << static_cast<int>(host); });
 }
 
 TEST(Render, AnySplitOfTheSameSamplesGivesTheSameBytes) {

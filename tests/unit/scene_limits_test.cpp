@@ -168,6 +168,33 @@ TEST(LargeMeshes, ParseInReasonableTime) {
   EXPECT_LT(seconds, 20.0);  // a bound against quadratic work, not a benchmark
 }
 
+TEST(MisspeltNames, AmongTenThousandLongOnesAreAnsweredInReasonableTime) {
+  const std::string stem(55, 'a');
+  std::string materials, objects;
+  for (int i = 10'000; i < 19'999; ++i) {
+    materials += (i > 10'000 ? ", \"" : "\"") + stem + "m" + std::to_string(i) + "\": {}";
+    objects += (i > 10'000 ? ", " : "") + std::string(R"({"type": "sphere", "material": ")") + stem + "x" +
+               std::to_string(i) + "\"}";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const SceneErrors errors = refused("{\"materials\": {" + materials + "}, \"objects\": [" + objects + "]}");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ASSERT_EQ(errors.errors.size(), 100u);
+  EXPECT_EQ(errors.errors[0].hint.rfind("did you mean", 0), 0u);
+  EXPECT_LT(seconds, 20.0);  // a bound against quadratic work, not a benchmark: once it was minutes
+}
+
+TEST(UnknownKeys, InLargeObjectsAreAnsweredWithTheirPlaces) {
+  std::string text = "{\n\"objects\": [{\"type\": \"sphere\"}]";
+  for (int i = 100'000; i < 600'000; ++i) text += ",\n\"key" + std::to_string(i) + "\": 1";
+  const SceneErrors errors = refused(text + "}");
+  ASSERT_EQ(errors.errors.size(), 100u);
+  for (int i = 0; i < 99; ++i) {
+    EXPECT_EQ(errors.errors[static_cast<size_t>(i)].pointer, "/key" + std::to_string(100'000 + i));
+    EXPECT_EQ(errors.errors[static_cast<size_t>(i)].line, 3 + i);
+  }
+}
+
 // Deterministic damage to a valid document: whatever comes out, nothing crashes, and every error is well formed.
 TEST(DamagedDocuments, NeverCrashTheParser) {
   const std::string original(full_document());

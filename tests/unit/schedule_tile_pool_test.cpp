@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "renderer/schedule/tile_pool.h"
+#include "tests/unit/host_floats.h"
 
 namespace tilelight {
 namespace {
@@ -347,6 +348,19 @@ TEST(TilePool, DestructionFinishesWhatRunsAndDropsTheRest) {
   } catch (const std::future_error& error) {
     EXPECT_EQ(error.code(), std::future_errc::broken_promise);
   }
+}
+
+TEST(TilePool, ComputesByTheStandardWhateverItsMakerHasSet) {
+  const volatile double one = 1.0, three = 3.0;
+  const double nearest = one / three;
+  test::on_host(test::Host::upwards, [&] {
+    TilePool pool(2);
+    EXPECT_EQ(pool.submit(Priority::normal, [&] { return one / three; }).get(), nearest);
+    std::vector<double> thirds(64);  // on the pool's threads and on this one
+    pool.parallel_for(64, Priority::normal, [&](int64_t i) { thirds[static_cast<size_t>(i)] = one / three; });
+    EXPECT_EQ(thirds, std::vector<double>(64, nearest));
+    EXPECT_GT(one / three, nearest) << "the host gets its own back";
+  });
 }
 
 TEST(TilePool, StandsManyThreadsAddingWakingAndWaiting) {

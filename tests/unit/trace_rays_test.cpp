@@ -8,6 +8,7 @@
 #include <random>
 
 #include "renderer/compile/compile.h"
+#include "renderer/shade/surface.h"
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/trace_rays.h"
@@ -64,6 +65,22 @@ class TraceRays : public testing::Test {
 
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
 constexpr auto kExact = [] { return Vec3(0.0); };
+
+TEST_F(TraceRays, TakeTheFacetsNormalWhereOppositeOnesCancel) {
+  MeshData square;  // normals to the viewer on the left, from him on the right
+  square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.indices = {0, 1, 2, 0, 2, 3};
+  square.normals = {{0, 0, 1}, {0, 0, -1}, {0, 0, -1}, {0, 0, 1}};
+  Scene scene = scene_of({MeshShape{0}});
+  scene.meshes = {square};
+  const auto compiled = compile_scene(scene, pool_);
+  for (const double y : {-0.75, -0.5, -0.125, 0.25, 0.5}) {
+    const Ray ray{Vec3(0.0, y, 2.0), Vec3(0.0, 0.0, -1.0), {}, {}};
+    const Hit hit = closest(*compiled, ray);
+    ASSERT_TRUE(hit.is_hit());
+    EXPECT_EQ(make_surface(*compiled, ray, hit).normal, Vec3(0.0, 0.0, 1.0)) << y;
+  }
+}
 
 TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
   for (const double far : {0.0, 1e2, 1e4, 1e7}) {
