@@ -50,8 +50,8 @@ Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, do
 void start_near_bodies(Eye& eye, const Vec3& target, int width, int height, std::span<const Vec4> planes) {
   constexpr double kFar = 0x1p10;  // nearer than this the rounding of a start is under 2^-43 of the bodies
   constexpr double kReach = 2.0;   // no body is farther from the centre
-  if (!(glm::length(eye.origin) > kFar) || !(glm::dot(-eye.origin, eye.forward) > kReach)) return;
-  const Vec3& known = glm::length(target) < glm::length(eye.origin) ? target : eye.origin;
+  if (!(safe_length(eye.origin) > kFar) || !(glm::dot(-eye.origin, eye.forward) > kReach)) return;
+  const Vec3& known = safe_length(target) < safe_length(eye.origin) ? target : eye.origin;
   Eye near = eye;
   near.start = known + (-glm::dot(known, eye.forward) - kReach) * eye.forward;
   if (eye.projection == Projection::perspective) near.lead = glm::dot(near.start - eye.origin, eye.forward);

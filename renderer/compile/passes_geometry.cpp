@@ -65,9 +65,17 @@ double radius_about(const CompiledBody& body, const Mat4& to, const Vec3& center
 
 Mat3 cofactor(const Mat3& m) { return Mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])); }
 
-// The least thickness of a body in normalised units, and the least unit: so that three lengths in a product, and 1e30
-// units of the user, stay within a double. Nothing so thin can be seen.
-constexpr double kLeastThickness = 0x1p-300, kLeastUnits = 0x1p-330;
+// The least thickness of a body in normalised units, so that three lengths in a product stay within a double. Nothing
+// so thin can be seen.
+constexpr double kLeastThickness = 0x1p-300;
+
+// The unit is no smaller than lets the square of the farthest light's distance stay within a double.
+double least_units(const std::vector<CompiledLight>& lights, const Vec3& center) {
+  constexpr double kFarthest = 0x1p500;  // units
+  double farthest = 0.0;
+  for (const CompiledLight& light : lights) farthest = std::max(farthest, safe_length(light.position - center));
+  return farthest / kFarthest;
+}
 
 // The placement of a body in normalised units. The centre is subtracted before anything is added or scaled: exact where
 // it can be, however far away the scene is.
@@ -174,7 +182,8 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
 
   const Normalisation n = normalise(bounds);
   out.center = n.center;
-  out.units = std::max(n.units, kLeastUnits);
+  out.units = n.units;
+  for (const double least = least_units(out.lights, n.center); out.units < least;) out.units *= 2.0;
   out.bounding_center = 0.5 * bounds.lo + 0.5 * bounds.hi;
   out.bounding_radius = out.finite_bodies == 0 ? 1.0 : 0.0;
   for (size_t i = 0; i < out.bodies.size(); ++i) {
