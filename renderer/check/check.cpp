@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <utility>
 
 namespace tilelight::check {
 
@@ -13,6 +15,10 @@ std::vector<Row> catalogue() {
     const std::span<const Row> some = group();
     rows.insert(rows.end(), some.begin(), some.end());
   }
+  const auto place = [](const Row& row) {
+    return std::pair(std::string_view("SBTICLHMNJD").find(row.id[0]), std::atoi(row.id + 1));
+  };
+  std::sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) { return place(a) < place(b); });
   return rows;
 }
 

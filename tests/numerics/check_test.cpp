@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -61,6 +63,17 @@ TEST(TheMaskOfD2, ChangesTheBitsOfTheCLibrary) {
   EXPECT_EXIT(std::_Exit(here == std::getenv(kUnmasked) ? 1 : 0), testing::ExitedWithCode(0), "");
   ::unsetenv(kPlainLibrary.name);
   ::unsetenv(kUnmasked);
+}
+
+TEST(Catalogue, IsTheTableOfItsDocument) {
+  std::ifstream file(TILELIGHT_SOURCE_DIR "/renderer/check/README.md");
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  for (const Row& row : catalogue()) {
+    std::string extreme = row.extreme;
+    for (size_t at = 0; (at = extreme.find('|', at)) != std::string::npos; at += 2) extreme.insert(at, 1, '\\');
+    const std::string line = std::string("| ") + row.id + " | " + row.name + " | " + extreme + " |";
+    EXPECT_NE(document.find(line), std::string::npos) << line;
+  }
 }
 
 }  // namespace
