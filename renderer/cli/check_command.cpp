@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
@@ -29,9 +30,12 @@ std::vector<Row> chosen_rows(const std::vector<std::string>& only) {
   if (only.empty()) return rows;
   for (const std::string& name : only) {
     if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return is_named(row, name); })) continue;
-    std::string ids;
-    for (const Row& row : rows) ids += (ids.empty() ? "" : ", ") + std::string(row.id);
-    std::fprintf(stderr, "tilelight: no row is called '%s'; there are %s\n", name.c_str(), ids.c_str());
+    std::string letters;
+    for (const Row& row : rows) {
+      if (letters.empty() || letters.back() != row.id[0]) letters += (letters.empty() ? "" : ", ") + std::string(1, row.id[0]);
+    }
+    std::fprintf(stderr, "tilelight: no row is called '%s'; the groups are %s, their rows S1, S2, ...\n", name.c_str(),
+                 letters.c_str());
     return {};
   }
   std::erase_if(rows, [&](const Row& row) {
@@ -42,7 +46,8 @@ std::vector<Row> chosen_rows(const std::vector<std::string>& only) {
 
 std::string number_text(double value) {
   std::ostringstream out;
-  out << std::setprecision(4) << value;
+  const bool is_count = std::abs(value) < 1e12 && value == std::floor(value);
+  out << std::setprecision(is_count ? 12 : 4) << value;
   return out.str();
 }
 
@@ -91,7 +96,7 @@ ExitCode run_check(const CheckArguments& arguments) {
   if (arguments.json) {
     std::printf("%s\n", check::verdicts_json(verdicts).c_str());
   } else {
-    std::printf("\n%zu rows, %td failed, %.0f s on %d threads (%s)\n", rows.size(), failed, ms / 1000.0,
+    std::printf("\n%zu rows, %td failed, %.1f s on %d threads (%s)\n", rows.size(), failed, ms / 1000.0,
                 pool.thread_count(), current_isa().c_str());
   }
   return failed == 0 ? kOk : kFailed;

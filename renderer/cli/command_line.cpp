@@ -55,6 +55,7 @@ void add_render(CLI::App& app, Run& run) {
                                         "x,y: print the rays behind one pixel, JSON, and do not render")
                            ->delimiter(',')
                            ->expected(2);
+  pixel->excludes(output);
   command->add_option("--sample", options->render.sample, "Which sample of the pixel, from 0")->needs(pixel);
   command->footer(
       "Examples:\n"

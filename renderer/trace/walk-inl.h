@@ -115,13 +115,18 @@ HWY_INLINE int push_children(const WideBvh& bvh, uint32_t index, const FilterRay
   return top;
 }
 
-// The triangles of a block that may be hit between t_min and t_max, as a bit mask.
+// What the float filter can say of the triangles of a block, as bit masks.
+struct Sifted {
+  uint32_t maybe = 0;   // may be hit between t_min and t_max
+  uint32_t surely = 0;  // of those: hit without any doubt, between t_sure and t_max less its slack; found if kSurely
+};
 struct FilterShear {
   int kx, ky, kz;
   float sx, sy, sz;
 };
-HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay& ray, const FilterShear& s,
-                                     float t_max) {
+template <bool kSurely>
+HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ray, const FilterShear& s, float t_sure,
+                                 float t_max) {
   const FloatTag tag;
   constexpr size_t kLanes = hn::MaxLanes(tag);
   using V = hn::Vec<FloatTag>;
@@ -129,7 +134,7 @@ HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay
   const V sx = hn::Set(tag, s.sx), sy = hn::Set(tag, s.sy), sz = hn::Set(tag, s.sz);
   // Points in the sheared plane are off by less than this (rounding of origin, direction, vertex and products).
   const V slack = hn::Set(tag, 0x1p-19f);
-  uint32_t mask = 0;
+  Sifted out;
   for (size_t i = 0; i < 8; i += kLanes) {
     V x[3], y[3], t[3];
     for (int v = 0; v < 3; ++v) {
@@ -139,13 +144,19 @@ HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay
       t[v] = hn::Mul(sz, z);
     }
     auto some_positive = hn::MaskFromVec(hn::Zero(tag)), some_negative = some_positive;
+    auto all_positive = hn::Not(some_positive), all_negative = all_positive;
     for (int e = 0; e < 3; ++e) {
       const int a = (e + 1) % 3, b = (e + 2) % 3;
       const V edge = hn::Sub(hn::Mul(x[b], y[a]), hn::Mul(y[b], x[a]));
       const V bound =
           hn::Mul(slack, hn::Add(hn::Add(hn::Abs(x[a]), hn::Abs(y[a])), hn::Add(hn::Abs(x[b]), hn::Abs(y[b]))));
-      some_positive = hn::Or(some_positive, hn::Gt(edge, bound));
-      some_negative = hn::Or(some_negative, hn::Lt(edge, hn::Neg(bound)));
+      const auto is_positive = hn::Gt(edge, bound), is_negative = hn::Lt(edge, hn::Neg(bound));
+      some_positive = hn::Or(some_positive, is_positive);
+      some_negative = hn::Or(some_negative, is_negative);
+      if constexpr (kSurely) {
+        all_positive = hn::And(all_positive, is_positive);
+        all_negative = hn::And(all_negative, is_negative);
+      }
     }
     // The hit's t lies between those of the vertices.
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
@@ -153,9 +164,15 @@ HWY_INLINE uint32_t filter_triangles(const TriangleBlock& block, const FilterRay
     const auto maybe = hn::AndNot(hn::And(some_positive, some_negative), in_reach);
     uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, maybe, bits);
-    mask |= static_cast<uint32_t>(bits[0]) << i;
+    out.maybe |= static_cast<uint32_t>(bits[0]) << i;
+    if constexpr (kSurely) {
+      const float t_end = t_max - 2.0f * kFilterSlack * (1.0f + std::abs(t_max));
+      const auto between = hn::And(hn::Gt(nearest, hn::Set(tag, t_sure)), hn::Lt(farthest, hn::Set(tag, t_end)));
+      hn::StoreMaskBits(tag, hn::And(hn::Or(all_positive, all_negative), between), bits);
+      out.surely |= static_cast<uint32_t>(bits[0]) << i;
+    }
   }
-  return mask;
+  return out;
 }
 
 struct NaiveHit {
@@ -338,6 +355,8 @@ class Walk {
                                    static_cast<float>(shear.sx),
                                    static_cast<float>(shear.sy),
                                    static_cast<float>(shear.sz * filter.length)};
+    // From here on a hit lies ahead without any doubt.
+    const float t_sure = filter_t_max(2.0 * start_.reach, filter.shift, filter.length);
     StackEntry stack[kStackSize];
     int top = 1;
     stack[0] = {0, filter.t_min};
@@ -357,7 +376,9 @@ class Walk {
         found = true;
         continue;
       }
-      uint32_t candidates = filter_triangles(block, filter, filter_shear, t_max);
+      const Sifted sifted = sift_triangles<kAnyHit>(block, filter, filter_shear, t_sure, t_max);
+      if (kAnyHit && has_sure_hit(index, block, sifted.surely)) return true;
+      uint32_t candidates = sifted.maybe;
       while (candidates != 0) {
         const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(candidates);
         candidates &= candidates - 1;
@@ -368,6 +389,20 @@ class Walk {
       }
     }
     return found;
+  }
+
+  // Whether one of the triangles that are surely hit is not the one that the ray has left. Tells that there is a hit
+  // and not which: for any hit alone.
+  bool has_sure_hit(uint32_t index, const TriangleBlock& block, uint32_t surely) {
+    if (surely != 0 && ray_.left.body == index) {
+      for (uint32_t lanes = surely; lanes != 0; lanes &= lanes - 1) {
+        const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+        if (block.id[lane] == ray_.left.prim) surely &= ~(1u << lane);
+      }
+    }
+    if (surely == 0) return false;
+    best_.body = index;
+    return true;
   }
 
   bool offer_triangle(uint32_t index, const CompiledMesh& mesh, const LocalRay& local, uint32_t id,

@@ -19,12 +19,25 @@ many renders at once. Without --url a server of this checkout is started on free
 the machine.
 
   --url URL           a running server, e.g. http://127.0.0.1:8080
-  --admin URL         its admin port, e.g. http://127.0.0.1:8081; without it no renders, rays and CPU are told
-  --connections LIST  [1,2,4,8,16,32,64]
-  --seconds N         of each step [5]
+  --admin URL         its admin port, e.g. http://127.0.0.1:8081; without it no renders, rays and CPU are shown
+  --connections LIST  how many at once, a step each [1,2,4,8,16,32,64]
+  --seconds N         the length of a step [5]
   --json FILE         the table as JSON as well`;
 
-const { values: options } = parseArgs({
+// Says what is wrong with the command line and ends.
+function refuse(what) {
+  console.error(`tests/load/run: ${what}\n\n${kHelp}`);
+  process.exit(2);
+}
+function readOptions(config) {
+  try {
+    return parseArgs(config).values;
+  } catch (error) {
+    return refuse(error.message);
+  }
+}
+
+const options = readOptions({
   options: {
     url: { type: 'string' }, admin: { type: 'string' }, connections: { type: 'string', default: '1,2,4,8,16,32,64' },
     seconds: { type: 'string', default: '5' }, json: { type: 'string' }, help: { type: 'boolean', short: 'h' },
@@ -37,8 +50,7 @@ if (options.help) {
 const connections = options.connections.split(',').map(Number);
 const seconds = Number(options.seconds);
 if (!connections.every((n) => Number.isInteger(n) && n >= 1) || !(Number.isInteger(seconds) && seconds >= 1)) {
-  console.error('tests/load/run: --connections takes whole numbers with commas, --seconds a whole number');
-  process.exit(2);
+  refuse('--connections takes whole numbers with commas, --seconds a whole number');
 }
 
 // A server of this checkout; {url, admin, stop()}.
