@@ -28,4 +28,16 @@ inline double safe_length(const Vec3& v) {
 // REQUIRES: v is not zero.
 inline Vec3 safe_normalize(const Vec3& v) { return glm::normalize(scale_to_one(v).v); }
 
+// glm::normalize, of vectors of any length but 0; for the many of ordinary length it costs no more.
+inline Vec3 unit_of(const Vec3& v) {
+  const double square = glm::dot(v, v);
+  return square > 1e-200 && square < 1e200 ? glm::normalize(v) : safe_normalize(v);
+}
+
+// A vector along a x b, for edges of any length; glm::cross where that keeps its digits.
+inline Vec3 cross_of(const Vec3& a, const Vec3& b) {
+  const Vec3 n = glm::cross(a, b);
+  return glm::dot(n, n) > 1e-200 ? n : glm::cross(scale_to_one(a).v, scale_to_one(b).v);
+}
+
 }  // namespace tilelight

@@ -69,12 +69,15 @@ Mat3 cofactor(const Mat3& m) { return Mat3(glm::cross(m[1], m[2]), glm::cross(m[
 // so thin can be seen.
 constexpr double kLeastThickness = 0x1p-300;
 
-// The unit is no smaller than lets the square of the farthest light's distance stay within a double.
+// The unit is no smaller than lets the square of the farthest light's distance, and the distance of an eye 1e30 away,
+// stay within a double.
 double least_units(const std::vector<CompiledLight>& lights, const Vec3& center) {
-  constexpr double kFarthest = 0x1p500;  // units
+  constexpr double kFarthest = 0x1p500, kLeast = 0x1p-900;
   double farthest = 0.0;
-  for (const CompiledLight& light : lights) farthest = std::max(farthest, safe_length(light.position - center));
-  return farthest / kFarthest;
+  for (const CompiledLight& light : lights) {
+    if (light.kind == LightKind::point) farthest = std::max(farthest, safe_length(light.position - center));
+  }
+  return std::max(farthest / kFarthest, kLeast);
 }
 
 // The placement of a body in normalised units. The centre is subtracted before anything is added or scaled: exact where

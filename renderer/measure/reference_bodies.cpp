@@ -241,11 +241,13 @@ std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, boo
   const TriMesh& mesh = *body.mesh->mesh;
   const auto& vertices = corners(mesh, hit.primitive);
   const auto& normals = mesh.corner_normals[hit.primitive];
+  const Vec3 facing = (is_inside ? -1.0 : 1.0) * local_normal(body, hit);
   Vec3 mixed(0.0);
   for (int i = 0; i < 3; ++i) {
     const Vec3 off = hit.local - mesh.positions[vertices[i]];
-    const double height = glm::dot(off, normals[i]) * (is_inside ? -1.0 : 1.0);  // of the facet over the plane
-    const Vec3 projected = off - std::min(0.0, height) * (is_inside ? -normals[i] : normals[i]);
+    const Vec3 normal = glm::dot(normals[i], facing) < 0.0 ? -normals[i] : normals[i];
+    const double height = glm::dot(off, normal);  // of the facet over the plane
+    const Vec3 projected = off - std::min(0.0, height) * normal;
     mixed += hit.barycentric[i] * (projected - off);
   }
   return body.world_from_local * mixed;

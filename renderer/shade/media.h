@@ -2,7 +2,7 @@
 // MediaSets: the sets of transparent bodies that rays are inside of, in the order of entering. The medium that counts
 // is the one of the highest priority, among equals the one entered last (after Schmidt and Budge 2002). However many
 // media overlap, none is forgotten: a set is a history that shares its past with the sets it came from. A crossing adds
-// one node or none, after leaving out of order kFewMedia of them at most. One thread at a time.
+// one node or none; a history that has grown to twice its media, or of a few, is written anew. One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class MediaSets {
     if (!head.is_left && head.body == body) return head.before;
     find_present(set);
     present_.erase(std::find(present_.begin(), present_.end(), body));
-    if (present_.size() <= kFewMedia) {  // a new history, which keeps walks short
+    if (present_.size() <= kFewMedia || history_ > 2 * present_.size()) {  // a new history, which keeps walks short
       std::reverse(present_.begin(), present_.end());
       return of(present_);
     }
@@ -81,16 +81,17 @@ class MediaSets {
     nodes_.push_back(node);
     return static_cast<Set>(nodes_.size() - 1);
   }
-  // Fills present_, the last entered first.
+  // Fills present_, the last entered first, and history_, in time linear in the latter.
   void find_present(Set set) {
     present_.clear();
-    left_.clear();
-    for (; set != kOpenAir; set = nodes_[set].before) {
-      const Node& node = nodes_[set];
+    history_ = 0;
+    times_left_.resize(scene_.bodies.size());
+    for (Set at = set; at != kOpenAir; at = nodes_[at].before, ++history_) {
+      const Node& node = nodes_[at];
       if (node.is_left) {
-        left_.push_back(node.body);
-      } else if (const auto it = std::find(left_.begin(), left_.end(), node.body); it != left_.end()) {
-        left_.erase(it);
+        ++times_left_[node.body];
+      } else if (times_left_[node.body] > 0) {
+        --times_left_[node.body];
       } else {
         present_.push_back(node.body);
       }
@@ -99,7 +100,8 @@ class MediaSets {
 
   const CompiledScene& scene_;
   std::vector<Node> nodes_;
-  std::vector<uint32_t> present_, left_;  // scratch of find_present
+  std::vector<uint32_t> present_, times_left_;  // scratch of find_present; the latter by body, 0 between calls
+  size_t history_ = 0;                          // nodes of the set that find_present saw
 };
 
 // The media on both sides of a medium's surface, as a ray meets it.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/base/safe_length.h"
+
 namespace tilelight {
 namespace {
 
@@ -19,7 +21,7 @@ LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
   const double b2 = 1.0 - hit.b0 - hit.b1;
   LocalPoint out;
   out.position = hit.b0 * a + hit.b1 * b + b2 * c;
-  out.geometric = glm::cross(b - a, c - a);
+  out.geometric = cross_of(b - a, c - a);
   if (mesh.corner_normals.empty()) {
     out.shading = out.geometric;
   } else {
@@ -94,8 +96,8 @@ Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit)
   out.material = &scene.materials[body.material];
   out.here = {hit.body, hit.prim};
   out.position = transform_point(body.world_from_local, local.position);
-  out.geometric_normal = glm::normalize(body.world_from_normal * local.geometric);
-  out.normal = glm::normalize(body.world_from_normal * local.shading);
+  out.geometric_normal = unit_of(body.world_from_normal * local.geometric);
+  out.normal = unit_of(body.world_from_normal * local.shading);
   out.is_rounded = body.kind == BodyKind::mesh && !body.mesh->corner_normals.empty();
   out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
   if (!out.from_outside) out.geometric_normal = -out.geometric_normal;
@@ -112,8 +114,12 @@ Vec3 rounded_position(const Surface& surface, const Hit& hit) {
   const double weight[3] = {hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1};
   Vec3 facet(0.0), lift(0.0);
   for (int i = 0; i < 3; ++i) facet += weight[i] * mesh.positions[corner[i]];
+  Vec3 up = cross_of(mesh.positions[corner[1]] - mesh.positions[corner[0]],
+                     mesh.positions[corner[2]] - mesh.positions[corner[0]]);
+  if (!surface.from_outside) up = -up;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 n = surface.from_outside ? mesh.normals[normal[i]] : -mesh.normals[normal[i]];
+    Vec3 n = mesh.normals[normal[i]];
+    if (glm::dot(n, up) < 0.0) n = -n;  // given against the winding, or seen from inside
     const double under = glm::dot(mesh.positions[corner[i]] - facet, n);  // the tangent plane at the corner
     if (under > 0.0) lift += weight[i] * under * n;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/base/safe_length.h"
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 
@@ -48,10 +49,10 @@ inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec
     case BodyKind::mesh: {
       const auto& tri = body.mesh->triangles[prim];
       const Vec3& a = body.mesh->positions[tri[0]];
-      n = glm::cross(body.mesh->positions[tri[1]] - a, body.mesh->positions[tri[2]] - a);
+      n = cross_of(body.mesh->positions[tri[1]] - a, body.mesh->positions[tri[2]] - a);
     }
   }
-  return std::abs(glm::dot(glm::normalize(body.world_from_normal * n), world_direction));
+  return std::abs(glm::dot(unit_of(body.world_from_normal * n), world_direction));
 }
 
 // Unit sphere. Hearn and Baker's form (Haines et al., Ray Tracing Gems ch. 7): the discriminant as a squared distance
@@ -74,8 +75,12 @@ bool intersect_sphere(const LocalRay& ray, bool has_left, const IsAhead& is_ahea
   const double c = glm::dot(o, o) - 1.0;
   const double r0 = c / q, r1 = q / a;
   const double near = std::fmin(r0, r1), far = std::fmax(r0, r1);
-  t = is_ahead(near, 0) ? near : far;
-  return t == near || is_ahead(far, 0);
+  if (is_ahead(near, 0)) {
+    t = near;
+    return true;
+  }
+  t = far;
+  return is_ahead(far, 0);
 }
 
 // How far the ray and a box's faces may lie, in the box's local space, from where the numbers of the scene put them:

@@ -109,14 +109,22 @@ class TileKernel {
   }
 
   void trace_part(Level& level, size_t first, size_t last, Level& next) {
-    constexpr size_t kShadowRays = 4096;  // lit by many lights, a part is lit in pieces; cut between samples
+    // Lit by many lights, a part is lit in pieces: cut between samples, and inside a sample by its own count alone, so
+    // that the order of its sum depends on nothing else.
+    constexpr size_t kShadowRays = 4096;
+    size_t sample_start = 0;  // in shadow_rays_, of the sample in work
     const std::span<BoundedRay> rays = std::span(level.rays).subspan(first, last - first);
     hits_.resize(rays.size());
     trace_closest(scene_, rays, hits_);
     next_ = &next;
     for (size_t i = 0; i < rays.size(); ++i) {
       Path& path = level.paths[first + i];
-      if (shadow_rays_.size() >= kShadowRays && path.sample != pending_.back().sample) add_lights();
+      const bool is_new = i == 0 || path.sample != level.paths[first + i - 1].sample;
+      if (shadow_rays_.size() - (is_new ? 0 : sample_start) >= kShadowRays) {
+        add_lights();
+        sample_start = 0;
+      }
+      if (is_new) sample_start = shadow_rays_.size();
       if constexpr (kCan.glass) pass_unseen(rays[i], path, hits_[i]);
       shade(rays[i].ray, path, hits_[i]);
     }
@@ -212,7 +220,7 @@ class TileKernel {
                                const Vec3& start) {
     Vec3 to_light = sample.to_light;
     double distance = sample.distance;
-    if (source.kind == LightKind::point && start != surface.position) {
+    if (source.kind == LightKind::point && start != surface.position && start != source.position) {
       to_light = source.position - start;
       distance = glm::length(to_light);
       to_light /= distance;
@@ -238,7 +246,7 @@ class TileKernel {
 
   void follow_shadow(BoundedRay shadow, Color& visible) {
     Hit hit;
-    while (true) {
+    while (!is_cancelled()) {
       trace_closest(scene_, {&shadow, 1}, {&hit, 1});
       if (!hit.is_hit()) return;
       visible *= scene_.materials[scene_.bodies[hit.body].material].source.transmission;  // 0 for what is opaque
@@ -265,7 +273,7 @@ class TileKernel {
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
   // ray gets no deeper.
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
-    while (hit.is_hit() && is_medium(hit.body)) {
+    while (hit.is_hit() && is_medium(hit.body) && !is_cancelled()) {
       const Surface surface = make_surface(scene_, ray.ray, hit);
       const size_t media_before = media_.size();
       const Crossing crossing(media_, path.media, hit.body, surface.from_outside);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traversal of the 8-wide trees by single rays: boxes and triangles pass a float filter eight at a time, and what is
-// left is decided in double (intersect.h). The filter errs on the side of passing, so the image does not depend on it,
-// nor on the order of traversal, nor on the instruction set. Included once for every instruction set.
+// left is decided in double (intersect.h). The filter errs on the side of passing, and where any hit will do it accepts
+// what its margin puts beyond doubt; so the image depends neither on it nor on the instruction set. Included once for
+// every instruction set.
 #if defined(TILELIGHT_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TILELIGHT_WALK_INL_H
 #undef TILELIGHT_WALK_INL_H
@@ -51,6 +52,11 @@ HWY_INLINE FilterRay make_filter_ray(const LocalRay& ray, double t_min, double t
   constexpr double kNear2 = 4.0;  // inside two units of the centre the origin may stay
   f.shift = glm::dot(ray.origin, ray.origin) > kNear2 ? -glm::dot(ray.origin, ray.direction) / d2 : 0.0;
   f.moved = ray.origin + f.shift * ray.direction;
+  if (glm::dot(f.moved, f.moved) > kNear2) {  // so far away that the shift itself was rounded by units: once more
+    const double rest = -glm::dot(f.moved, ray.direction) / d2;
+    f.shift += rest;
+    f.moved += rest * ray.direction;
+  }
   const double scale = 1.0 / f.length;
   for (int axis = 0; axis < 3; ++axis) {
     f.origin[axis] = static_cast<float>(f.moved[axis]);
@@ -132,7 +138,8 @@ HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ra
   using V = hn::Vec<FloatTag>;
   const V ox = hn::Set(tag, ray.origin[s.kx]), oy = hn::Set(tag, ray.origin[s.ky]), oz = hn::Set(tag, ray.origin[s.kz]);
   const V sx = hn::Set(tag, s.sx), sy = hn::Set(tag, s.sy), sz = hn::Set(tag, s.sz);
-  // Points in the sheared plane are off by less than this (rounding of origin, direction, vertex and products).
+  // Points in the sheared plane are off by less than this: 29 roundings of 2^-25 (of origin, direction, vertex, shear
+  // and their products) come to 2^-20.1. What is discarded and what is accepted both rest on it.
   const V slack = hn::Set(tag, 0x1p-19f);
   Sifted out;
   for (size_t i = 0; i < 8; i += kLanes) {
@@ -253,7 +260,7 @@ class Walk {
       const WideBvh::Leaf& leaf = scene_.tree.leaves[e.node & ~WideBvh::kLeafBit];
       if (visit_body(scene_.tree.order[leaf.first])) {
         if (kAnyHit) return best_;
-        t_max = filter_t_max(best_.t, filter.shift, filter.length);
+        t_max = filter_t_max(end_of_ties(best_.t), filter.shift, filter.length);
       }
     }
     return best_;
@@ -306,6 +313,9 @@ class Walk {
     // What lies before the surface has let the ray through that came here; something opaque there is rounding.
     return is_before && scene_.materials[body.material].is_transmissive;
   }
+
+  // Surfaces up to here may lie in the same place as one at t, see is_nearer.
+  static double end_of_ties(double t) { return t + 0x1p-26 * (1.0 + std::abs(t)); }
 
   bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {
     if (best_.is_hit() ? !is_nearer(index, prim, t) : !(t < best_.t)) return false;
@@ -385,7 +395,7 @@ class Walk {
         if (!offer_triangle(index, mesh, local, block.id[lane], filter, shear)) continue;
         if (kAnyHit) return true;
         found = true;
-        t_max = filter_t_max(best_.t, filter.shift, filter.length);
+        t_max = filter_t_max(end_of_ties(best_.t), filter.shift, filter.length);
       }
     }
     return found;

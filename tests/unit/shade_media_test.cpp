@@ -87,7 +87,7 @@ TEST(MediaSets, GrowByAHandfulOfNodesACrossingHoweverManyMediaOverlap) {
   for (uint32_t i = 0; i < kBodies; ++i) set = sets.with(set, i);
   for (uint32_t i = 0; i < kBodies; ++i) set = sets.without(set, i);  // first in, first out
   EXPECT_EQ(set, MediaSets::kOpenAir);
-  EXPECT_LE(sets.size(), size_t{2 * kBodies + 20});
+  EXPECT_LE(sets.size(), size_t{4 * kBodies + 20});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // set.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -202,6 +203,60 @@ TEST_F(TraceRays, TellSpheresApartThatHalveSixtyTimesTowardsTheOrigin) {
     EXPECT_DOUBLE_EQ(hit.t * compiled->units, 8.0 * radius);
   }
   EXPECT_EQ(compiled->bodies[from(Vec3(0.0), {1, 0, 0}).body].body, 60u);
+}
+
+TEST_F(TraceRays, ThatTouchASphereBehindThemDoNotHitIt) {
+  double t = 0.0;
+  for (const double x : {1.0, -1.0}) {
+    EXPECT_FALSE(intersect_sphere({{x, 0.5, 0}, {0, 1, 0}}, false, kAhead, t));  // both roots are -0.5
+    EXPECT_FALSE(intersect_sphere({{x, 0.0, 0}, {0, 1, 0}}, false, kAhead, t));  // both are 0
+    ASSERT_TRUE(intersect_sphere({{x, -0.5, 0}, {0, 1, 0}}, false, kAhead, t));
+    EXPECT_EQ(t, 0.5);
+  }
+}
+
+// Any hit is sometimes accepted in float; the nearest hit never is.
+TEST_F(TraceRays, OfAnyHitAgreeWithThoseOfTheNearest) {
+  for (const double size : {1.0, 1e-9}) {
+    Scene scene = scene_of({MeshShape{0}, MeshShape{0}, PlaneShape{{0, -1, 0}, {0, 1, 0}}});
+    scene.meshes = {ball(3)};
+    scene.objects[1].world_from_shape = Mat4(size);
+    scene.objects[1].world_from_shape[3] = Vec4(1.2, 0.3, 0, 1);
+    const auto compiled = compile_scene(scene, pool_);
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto direction = [&] { return glm::normalize(Vec3(unit(random), unit(random), unit(random))); };
+    std::vector<BoundedRay> first(20'000), rays;
+    const auto towards = [&](const Vec3& from) { return glm::normalize(0.9 * direction() - from); };
+    for (BoundedRay& ray : first) {
+      const Vec3 from = 3.0 * direction();
+      ray = {{from, towards(from), {}}};
+    }
+    std::vector<Hit> hits(first.size());
+    trace_closest(*compiled, first, hits);
+    for (size_t i = 0; i < first.size(); ++i) {  // from surfaces, to just before, at and beyond what comes next
+      if (!hits[i].is_hit()) continue;
+      const Vec3 place = first[i].ray.origin + hits[i].t * first[i].ray.direction;
+      BoundedRay ray{{place, towards(place), {hits[i].body, hits[i].prim}, Coincident::before}};
+      Hit next;
+      trace_closest(*compiled, {&ray, 1}, {&next, 1});
+      for (const double factor : {1.0 - 1e-15, 1.0, 1.0 + 1e-15, 0.5, 1.0 - 1e-7, 1.0 + 1e-7}) {
+        ray.t_max = next.t * factor;
+        rays.push_back(ray);
+      }
+    }
+    std::vector<Hit> expected(rays.size());
+    trace_closest(*compiled, rays, expected);
+    ASSERT_GT(std::count_if(expected.begin(), expected.end(), [](const Hit& h) { return h.is_hit(); }), 1000);
+    for (const std::string& isa : available_isas()) {
+      ASSERT_TRUE(select_isa(isa).has_value());
+      std::vector<uint8_t> is_blocked(rays.size());
+      trace_any(*compiled, rays, is_blocked);
+      int differing = 0;
+      for (size_t i = 0; i < rays.size(); ++i) differing += static_cast<bool>(is_blocked[i]) != expected[i].is_hit();
+      EXPECT_EQ(differing, 0) << isa << ", size " << size;
+    }
+  }
 }
 
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
