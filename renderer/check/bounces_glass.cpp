@@ -94,7 +94,7 @@ Outcome bubble(const Context& context) {
   for (int pixel = 0; pixel < size * size; ++pixel) {
     const Path a = in_glass.path(pixel % size, pixel / size), b = in_air.path(pixel % size, pixel / size);
     for (size_t i = 0; i < b.rays.size(); ++i)
-      worst = i < a.rays.size() ? std::max(worst, glm::length(a.rays[i].direction - b.rays[i].direction)) : INFINITY;
+      note(worst, i < a.rays.size() ? glm::length(a.rays[i].direction - b.rays[i].direction) : INFINITY);
   }
   int accepted = 0;
   for (const char* ior : {"0", "-1"}) {
@@ -148,15 +148,15 @@ Outcome plates(const Context& context) {
                               "]}",
                           context.pool);
     const double shift = kPlates * kPlate * sine * (1.0 - cosine / std::sqrt(kIor * kIor - sine * sine));
-    bent = std::max(bent, worst_path(scene, context.pool, [](const Path& path) {
-                      return glm::length(path.rays.back().direction - path.rays.front().direction);
-                    }));
-    shifted = std::max(shifted, worst_path(scene, context.pool, [&](const Path& path) {
-                         const Vec3 d = path.rays.front().direction;
-                         const Vec3 way = path.rays.back().origin - path.rays.front().origin;
-                         return std::abs(glm::length(way - glm::dot(way, d) * d) - shift);
-                       }));
-    naive_bent = std::max(naive_bent, glm::length(Vec3(naive_plates(theta)) - direction));
+    note(bent, worst_path(scene, context.pool, [](const Path& path) {
+           return glm::length(path.rays.back().direction - path.rays.front().direction);
+         }));
+    note(shifted, worst_path(scene, context.pool, [&](const Path& path) {
+           const Vec3 d = path.rays.front().direction;
+           const Vec3 way = path.rays.back().origin - path.rays.front().origin;
+           return std::abs(glm::length(way - glm::dot(way, d) * d) - shift);
+         }));
+    note(naive_bent, glm::length(Vec3(naive_plates(theta)) - direction));
   }
   return {{at_most(1e-5, "exit against entry, direction off by", bent), at_most(1e-5, "shift, off by", shifted)},
           {at_most(1e-5, "exit against entry, direction off by", naive_bent)}};
@@ -182,7 +182,7 @@ Outcome ball_lens(const Context& context) {
       const Vec3f place = ray.origin + *t * ray.direction;
       ray = {place, naive_refract(ray.direction, eta < 1.0f ? place : -place, eta)};
     }
-    naive_worst = std::max(naive_worst, std::abs(angle_between(Vec3(ray.direction), kBackward) - deviation(h)));
+    note(naive_worst, std::abs(angle_between(Vec3(ray.direction), kBackward) - deviation(h)));
   }
   return {{at_most(1e-9, "deviation 2 (i - r), rad off", worst)},
           {at_most(1e-9, "deviation 2 (i - r), rad off", naive_worst)}};

@@ -44,7 +44,7 @@ Outcome total_reflection(const Context&) {
     const Vec3 incoming(elementary::sin(theta), 0.0, -elementary::cos(theta));
     const Scatter out = glass.scatter(incoming, 1.5, 1.0);
     const bool goes_through = out.refract_weight.r > 0.0;
-    if (goes_through != (off < 0.0)) wrong = std::max(wrong, std::abs(off));
+    if (goes_through != (off < 0.0)) note(wrong, std::abs(off));
     bad += !is_finite(out.mirrored) || !is_finite(out.refracted) || !std::isfinite(out.mirror_weight.r);
     const auto cosine = static_cast<float>(-incoming.z);
     naive_bad += !std::isfinite(std::sqrt(1.0f - 1.5f * 1.5f * (1.0f - cosine * cosine)));
@@ -65,10 +65,10 @@ Outcome grazing_fresnel(const Context&) {
     const double q = std::sqrt(kIor2 - 1.0 + c * c), s = c + q, p = kIor2 * c + q;
     const double expected = 1.0 - 2.0 * c * q * (1.0 / (s * s) + kIor2 / (p * p));
     const Scatter out = glass.scatter({std::sqrt((1.0 - c) * (1.0 + c)), 0.0, -c}, 1.0, kIor);
-    worst = std::max(worst, std::abs(out.mirror_weight.r - expected));
+    note(worst, std::abs(out.mirror_weight.r - expected));
     const double opposite = 1.0 - c, at_zero = (kIor - 1.0) * (kIor - 1.0) / ((kIor + 1.0) * (kIor + 1.0));
     const double schlick = at_zero + (1.0 - at_zero) * opposite * opposite * opposite * opposite * opposite;
-    naive_worst = std::max(naive_worst, std::abs(schlick - expected));
+    note(naive_worst, std::abs(schlick - expected));
   }
   return {{at_most(1e-12, "reflected share, off by", worst)}, {at_most(1e-12, "reflected share, off by", naive_worst)}};
 }

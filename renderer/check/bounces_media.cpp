@@ -37,7 +37,7 @@ Outcome overlapping_media(const Context& context) {
   const double misplaced = worst_path(slabs, context.pool, [&](const Path& path) {
     if (path.rays.size() != 1 + places.size()) return static_cast<double>(INFINITY);
     double worst = glm::length(path.rays.back().direction - path.rays.front().direction);
-    for (size_t i = 0; i < places.size(); ++i) worst = std::max(worst, std::abs(path.rays[i].hit_point.z - places[i]));
+    for (size_t i = 0; i < places.size(); ++i) note(worst, std::abs(path.rays[i].hit_point.z - places[i]));
     return worst;
   });
   std::string balls;
@@ -83,7 +83,7 @@ Outcome plane_through_glass(const Context& context) {
     return s > 1.0 ? std::abs(turned - (arcsine(s / 3.0) - arcsine(s / 4.5))) : 0.0;
   });
   // From glass, as the eye's own place has it, into glass: straight on.
-  for (double s = 1.01; s < 2.8; s += 0.01) naive_worst = std::max(naive_worst, arcsine(s / 3.0) - arcsine(s / 4.5));
+  for (double s = 1.01; s < 2.8; s += 0.01) note(naive_worst, arcsine(s / 3.0) - arcsine(s / 4.5));
   return {{at_most(1e-9, "first bend of a ray, rad off", worst),
            at_most(0, "paths that meet other surfaces than the reference's", differing_paths(json, context.pool))},
           {at_most(1e-9, "first bend of a ray, rad off", naive_worst)}};

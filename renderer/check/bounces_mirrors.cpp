@@ -35,8 +35,8 @@ Outcome facing_mirrors(const Context& context) {
                      context.pool);
       const auto series = [&](int d) { return kGlow * (1.0 - elementary::pow(kr, d + 1.0)) / (1.0 - kr); };
       const double expected = series(depth), missing = kGlow * elementary::pow(kr, depth + 1.0) / (1.0 - kr);
-      worst = std::max(worst, std::abs(picture.linear[0] / expected - 1.0));
-      naive_worst = std::max(naive_worst, std::abs(series(std::min(depth, kTextbookDepth)) / expected - 1.0));
+      note(worst, std::abs(picture.linear[0] / expected - 1.0));
+      note(naive_worst, std::abs(series(std::min(depth, kTextbookDepth)) / expected - 1.0));
       least = std::min(least, picture.report.points.back().truncation_bound / missing);
     }
   }

@@ -107,7 +107,7 @@ double frame_error(const Eye& eye) {
   const Mat3 m(glm::normalize(eye.step_x), -glm::normalize(eye.step_y), -eye.forward);
   const Mat3 product = glm::transpose(m) * m - Mat3(1.0);
   double worst = std::abs(glm::determinant(m) - 1.0);
-  for (int i = 0; i < 9; ++i) worst = std::max(worst, std::abs(product[i / 3][i % 3]));
+  for (int i = 0; i < 9; ++i) note(worst, std::abs(product[i / 3][i % 3]));
   return worst;
 }
 

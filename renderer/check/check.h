@@ -4,6 +4,7 @@
 // ours keeps it, else the case would show nothing. README.md tells where the bounds come from.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,11 @@ inline Measured at_least(double bound, std::string what, double value) {
 // How far a value is from what is expected of it.
 inline Measured within(double tolerance, std::string what, double value, double expected) {
   return {std::move(what), value > expected ? value - expected : expected - value, Measured::Sense::at_most, tolerance};
+}
+
+// The worse of the two stays; NaN counts as without bound.
+inline void note(double& worst, double value) {
+  if (!(value <= worst)) worst = value >= 0.0 ? value : std::numeric_limits<double>::infinity();
 }
 
 struct Outcome {

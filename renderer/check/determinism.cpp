@@ -69,14 +69,14 @@ Outcome of_threads_and_tiles(const Context& context) {
       const auto scene = compile_scene(parsed.scene, pool);
       const Bits whole = bits_of(scene, parsed.view, pool);
       if (first.rgb.empty()) first = whole;
-      threads_off = std::max(threads_off, differing_bits(first.rgb, whole.rgb));
+      note(threads_off, differing_bits(first.rgb, whole.rgb));
       if (context.is_quick && threads != 7) continue;
       for (const int tile_px : {1, 8, 13, 16, 64})
-        tiles_off = std::max(tiles_off, differing_bits(first.rgb, bits_of(scene, parsed.view, pool, tile_px).rgb));
+        note(tiles_off, differing_bits(first.rgb, bits_of(scene, parsed.view, pool, tile_px).rgb));
     }
   }
   for (const int threads : {2, 7, 16})
-    textbook_off = std::max(textbook_off, differing_bits(textbook_samples(1), textbook_samples(threads)));
+    note(textbook_off, differing_bits(textbook_samples(1), textbook_samples(threads)));
   return {{at_most(0, "pixels that differ with the threads, %", threads_off),
            at_most(0, "pixels that differ with the tiles, %", tiles_off)},
           {at_most(0, "pixels that differ with the threads, %", textbook_off)}};
@@ -103,7 +103,7 @@ Outcome of_instruction_sets(const Context& context) {
       if (!select_isa(isa)) throw std::logic_error(isa + " is not available after all");
       const Bits bits = bits_of(json, context.pool);
       if (first.rgb.empty()) first = bits;
-      isas_off = std::max(isas_off, differing_bits(first.rgb, bits.rgb));
+      note(isas_off, differing_bits(first.rgb, bits.rgb));
     }
     if (context.is_quick && json != kShowcase) continue;
     const std::string image = image_by_command(context.command, json, {});
@@ -161,7 +161,7 @@ Outcome of_host_floats(const Context& context) {
         const auto bytes = to_srgb8({1, static_cast<int>(bits.rgb.size() / 3), bits.rgb}, -1.0);
         lost += std::fegetround() != rounding || tiny * 0.1f != tenth;
         if (host == Host::standard) expected = bits, expected_bytes = bytes;
-        off = std::max(off, differing_bits(expected.rgb, bits.rgb));
+        note(off, differing_bits(expected.rgb, bits.rgb));
         bytes_off += bytes != expected_bytes;
       });
     }

@@ -66,9 +66,9 @@ Outcome of_replays(const Context& context) {
     View replay = parsed.view;
     replay.render.samples.reset();
     replay.render.passes = first.passes;
-    replay_off = std::max(replay_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool, 13).rgb));
+    note(replay_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool, 13).rgb));
     replay.render.passes = {3, 5};
-    split_off = std::max(split_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool).rgb));
+    note(split_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool).rgb));
   }
   return {{at_least(2, "passes of the first render", static_cast<double>(first.passes.size())),
            at_most(0, "pixels that differ in the replay, %", replay_off),
@@ -83,7 +83,7 @@ Outcome of_object_order(const Context& context) {
     const ParsedScene there = scene_of(json), back = reversed(there);
     const Bits a = bits_of(compile_scene(there.scene, context.pool), there.view, context.pool);
     const Bits b = bits_of(compile_scene(back.scene, context.pool), back.view, context.pool);
-    off = std::max(off, differing_bits(a.rgb, b.rgb));
+    note(off, differing_bits(a.rgb, b.rgb));
   }
   const ParsedScene there = scene_of(plates), back = reversed(there);
   const auto textbook = [&](const ParsedScene& parsed) {

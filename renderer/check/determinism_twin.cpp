@@ -30,7 +30,7 @@ Apart apart(const ParsedScene& parsed, TilePool& pool) {
     double most = 0.0;
     for (int c = 0; c < 3; ++c) {
       const double here = displayed(picture.linear[3 * i + static_cast<size_t>(c)], exposure);
-      most = std::max(most, std::abs(here - displayed(pixels[i].color[c], exposure)));
+      note(most, std::abs(here - displayed(pixels[i].color[c], exposure)));
     }
     values += !(most <= 1e-3) && pixels[i].checker_cell_px >= kFineCheckerPx;
   }
@@ -49,8 +49,8 @@ Outcome of_twins(const Context& context) {
     parsed.view.render.samples = 1;
     if (!context.is_quick) parsed.view.image.width = 240, parsed.view.image.height = 160;
     const Apart here = apart(parsed, context.pool);
-    worst = {std::max(worst.ids, here.ids), std::max(worst.bytes, here.bytes), std::max(worst.values, here.values),
-             std::max(worst.textbook_ids, here.textbook_ids)};
+    note(worst.ids, here.ids), note(worst.bytes, here.bytes), note(worst.values, here.values);
+    note(worst.textbook_ids, here.textbook_ids);
   }
   return {{at_most(0.01, "first surfaces that differ, %", worst.ids),
            at_most(0.05, "pixels of which a byte differs, %", worst.bytes),

@@ -117,8 +117,8 @@ Outcome of_large_documents(const Context& context) {
     set_peak_mark();
     const double mib = peak_mib(), start = thread_cpu_s();
     const auto parsed = parse_scene(text, Limits{});
-    slowest_s = std::max(slowest_s, thread_cpu_s() - start);
-    most_mib = std::max(most_mib, peak_mib() - mib);
+    note(slowest_s, thread_cpu_s() - start);
+    note(most_mib, peak_mib() - mib);
     if (parsed) continue;
     unanswered += parsed.error().errors.empty() || parsed.error().errors[0].detail.empty();
     most_errors = std::max(most_errors, static_cast<int64_t>(parsed.error().errors.size()));

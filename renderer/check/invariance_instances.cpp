@@ -62,12 +62,11 @@ void measure_normals(const Context& context, const Stretch& stretch, Outcome& ou
       const RayScene::Hit hit = rays.nearest(origin, direction);
       misses += !hit.is_hit;
       if (!hit.is_hit) continue;
-      worst = std::max(worst, angle_between(hit.normal, normal));
+      note(worst, angle_between(hit.normal, normal));
       const auto plain = reference.nearest({.origin = origin, .direction = direction});
       if (plain)
-        worst_reference = std::max(worst_reference,
-                                   angle_between(hit.normal, reference::geometric_normal(reference.body(0), *plain)));
-      worst_textbook = std::max(worst_textbook, angle_between(glm::normalize(stretch.m * spot.normal), normal));
+        note(worst_reference, angle_between(hit.normal, reference::geometric_normal(reference.body(0), *plain)));
+      note(worst_textbook, angle_between(glm::normalize(stretch.m * spot.normal), normal));
     }
   }
   const std::string of = std::string(" under ") + stretch.name;
@@ -130,7 +129,7 @@ Outcome flat(const Context& context) {
       if (scene == &disc && x * x + z * z > 0.999) continue;
       const RayScene::Hit hit = scene->nearest(origin, down);
       misses += !hit.is_hit;
-      if (hit.is_hit) worst = std::max(worst, std::abs(hit.t - 1.0));
+      if (hit.is_hit) note(worst, std::abs(hit.t - 1.0));
     }
     const naive::RayF local{Vec3f(inverse * glm::vec4(Vec3f(origin), 1.0f)), glm::mat3(inverse) * Vec3f(down)};
     textbook_misses += !naive::slabs(local, Vec3f(-1.0f), Vec3f(1.0f));

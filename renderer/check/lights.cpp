@@ -63,10 +63,10 @@ Outcome floor_under_a_light(const Context& context) {
     for_each_pixel(size, kHeight, [&](size_t pixel, double x, double y) {
       const double rho = std::sqrt(1.0 + x * x + y * y);
       const double expected = 0.8 / rho / (rho + k);
-      worst = std::max(worst, relative(picture.linear[3 * pixel], expected));
+      note(worst, relative(picture.linear[3 * pixel], expected));
       // d of the viewer; and K in a renderer's own unit, here 128.
-      worst_to_viewer = std::max(worst_to_viewer, relative(0.8 / rho / (kEye + k), expected));
-      worst_unscaled = std::max(worst_unscaled, relative(0.8 / rho / (rho + 128.0 * k), expected));
+      note(worst_to_viewer, relative(0.8 / rho / (kEye + k), expected));
+      note(worst_unscaled, relative(0.8 / rho / (rho + 128.0 * k), expected));
     });
   }
   return {{at_most(5e-6, "kd I (h / rho) / (rho + K), relative error", worst)},
@@ -98,10 +98,10 @@ Outcome strong_and_weak(const Context& context) {
     const Picture same = with(power, -elementary::log2(power));
     for (size_t i = 0; i < one.linear.size(); ++i) {
       if (!(one.linear[i] > 0.0f)) continue;
-      worst = std::max(worst, relative(same.linear[i] / power, one.linear[i]));
+      note(worst, relative(same.linear[i] / power, one.linear[i]));
       // A frame buffer of half floats ends at 65504 and at 2^-24.
       const double half = same.linear[i] > 65504.0f ? INFINITY : same.linear[i] < 0x1p-25f ? 0.0 : same.linear[i];
-      half_worst = std::max(half_worst, relative(half / power, one.linear[i]));
+      note(half_worst, relative(half / power, one.linear[i]));
     }
   }
   return {{at_most(0, "2^90, 2^-90: what differs from intensity 1", bits),
@@ -134,7 +134,7 @@ Outcome superposition(const Context& context) {
     for (size_t i = 0; i < both.linear.size(); ++i) {
       if (!(both.linear[i] > 0.0f)) continue;
       const double sum = double{first.linear[i]} + second.linear[i] - none.linear[i];
-      worst = std::max(worst, relative(sum, both.linear[i]));
+      note(worst, relative(sum, both.linear[i]));
     }
     return worst;
   };
@@ -164,9 +164,9 @@ Outcome phases(const Context& context) {
     for (size_t i = 0; i < picture.linear.size(); i += 3) sum += picture.linear[i];
     constexpr double kDiscPx = 0.25 * kPi * kSize * kSize;
     const double expected = 2.0 / (3.0 * kPi) * (elementary::sin(phi) + (kPi - phi) * elementary::cos(phi));
-    worst = std::max(worst, std::abs(sum / kDiscPx - expected));
+    note(worst, std::abs(sum / kDiscPx - expected));
     // The mean of N.L itself: what faces away takes light away.
-    worst_unclamped = std::max(worst_unclamped, std::abs(2.0 / 3.0 * elementary::cos(phi) - expected));
+    note(worst_unclamped, std::abs(2.0 / 3.0 * elementary::cos(phi) - expected));
   }
   return {{at_most(2e-5, "mean of max(0, N.L) over the disc, off by", worst)},
           {at_most(2e-5, "mean of N.L, off by", worst_unclamped)}};
@@ -192,7 +192,7 @@ Outcome from_infinity(const Context& context) {
   const Picture infinite = with(R"({"type": "directional", "direction": )" + vector(-to_light) + "}");
   double worst = 0.0, brightest = 0.0;
   for (size_t i = 0; i < far.linear.size(); ++i) {
-    worst = std::max(worst, std::abs(double{far.linear[i]} - infinite.linear[i]));
+    note(worst, std::abs(double{far.linear[i]} - infinite.linear[i]));
     brightest = std::max(brightest, double{infinite.linear[i]});
   }
   const float attenuation = 1.0f / (std::numeric_limits<float>::infinity() + 0.0f);

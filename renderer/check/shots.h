@@ -21,12 +21,6 @@ struct Tally {
     return *this;
   }
 };
-
-// The worse of the two stays; NaN counts as without bound.
-inline void note(double& worst, double value) {
-  if (!(value <= worst)) worst = value >= 0.0 ? value : std::numeric_limits<double>::infinity();
-}
-
 // Calls shoot(random, tally) `count` times.
 template <class Shoot>
 Tally tally_shots(TilePool& pool, int64_t count, uint64_t seed, const Shoot& shoot) {

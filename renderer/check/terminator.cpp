@@ -43,8 +43,7 @@ OwnShadow own_shadow(const Context& context, Terminator terminator) {
   for (size_t i = 0; i < free.linear.size(); i += 3) {
     facing += free.linear[i] > 0.0f;
     dark += free.linear[i] > 0.0f && shadowed.linear[i] == 0.0f;
-    out.levels =
-        std::max(out.levels, 255.0 * std::abs(displayed(free.linear[i], 0.0) - displayed(shadowed.linear[i], 0.0)));
+    note(out.levels, 255.0 * std::abs(displayed(free.linear[i], 0.0) - displayed(shadowed.linear[i], 0.0)));
   }
   out.pixels_percent = 100.0 * static_cast<double>(dark) / static_cast<double>(facing);
   return out;
@@ -71,8 +70,8 @@ double facet_step(const Context& context, Terminator terminator) {
   for (int y = 0; y + 1 < size; ++y) {
     for (int x = 0; x + 1 < size; ++x) {
       if (!is_inside(x, y) || !is_inside(x + 1, y) || !is_inside(x, y + 1)) continue;
-      step = std::max(
-          {step, std::abs(difference(x + 1, y) - difference(x, y)), std::abs(difference(x, y + 1) - difference(x, y))});
+      note(step, std::abs(difference(x + 1, y) - difference(x, y)));
+      note(step, std::abs(difference(x, y + 1) - difference(x, y)));
     }
   }
   return step;

@@ -104,6 +104,7 @@ Vec3 beside_fan(Random& random) {
 // in extended precision.
 template <class Real>
 double ulps_beyond(const Rimmed& mesh, size_t triangle, const RayScene::Aim& aim, Real t) {
+  if (std::isnan(t)) return std::numeric_limits<double>::infinity();
   using Wide = glm::vec<3, long double>;
   const Wide direction = glm::normalize(Wide(aim.direction));
   long double low = std::numeric_limits<long double>::infinity(), high = -low;
@@ -194,7 +195,7 @@ Outcome sliver_fan(const Context& context) {
     const RayScene::Aim aim = to_plane(in_fan(mesh.mesh(), on_edge, random), random);
     const RayScene::Hit hit = scene.nearest(aim.origin, aim.direction);
     leaks += !hit.is_hit;
-    if (hit.is_hit) worst = std::max(worst, ulps_beyond(mesh, hit.id & 0xFFFF'FFFFu, aim, hit.t));
+    if (hit.is_hit) note(worst, ulps_beyond(mesh, hit.id & 0xFFFF'FFFFu, aim, hit.t));
     const RayScene::Aim past = to_plane(beside_fan(random), random);
     false_hits += scene.nearest(past.origin, past.direction).is_hit;
     if (i % 100 > 1) continue;  // what follows tries every triangle
@@ -208,7 +209,7 @@ Outcome sliver_fan(const Context& context) {
       const auto textbook = naive::triangle(ray, Vec3f(a), Vec3f(b), Vec3f(c), 0.0f, 0.0f);
       if (!textbook) continue;
       ++textbook_claims;
-      textbook_worst = std::max(textbook_worst, ulps_beyond(mesh, t, aim, textbook->t));
+      note(textbook_worst, ulps_beyond(mesh, t, aim, textbook->t));
     }
     claimed_otherwise += on_edge ? claims < 1 || claims > 2 : claims != 1;
     textbook_leaks += textbook_claims == 0;
@@ -237,7 +238,7 @@ Outcome giant_triangle(const Context& context) {
     if (slope < 1e-3) continue;
     const RayScene::Hit hit = scene.nearest(eye, direction);
     misses += !hit.is_hit;
-    worst = std::max(worst, std::abs(hit.t * slope - 1.0));
+    note(worst, std::abs(hit.t * slope - 1.0));
     const naive::RayF ray{Vec3f(eye), Vec3f(direction)};
     const auto textbook = naive::triangle(ray, Vec3f(corners[0]), Vec3f(corners[1]), Vec3f(corners[2]), 0.0f);
     trumbore_off += !textbook || !(std::abs(textbook->t * slope - 1.0) <= 1e-6);
