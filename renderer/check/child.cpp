@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace tilelight::check {
 namespace {
@@ -53,6 +55,17 @@ int open_text(std::string_view text) {
   return file;
 }
 
+// What was written to the file, which is closed.
+std::string text_of(int file) {
+  ::lseek(file, 0, SEEK_SET);
+  std::string text;
+  std::array<char, 1 << 16> part;
+  for (ssize_t n = 0; (n = ::read(file, part.data(), part.size())) > 0;)
+    text.append(part.data(), static_cast<size_t>(n));
+  ::close(file);
+  return text;
+}
+
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((fs::temp_directory_path() / "tilelight-check-XXXXXX").string()) {
@@ -72,33 +85,41 @@ class TemporaryFolder {
 
 }  // namespace
 
-int run_child(const std::string& program, const std::vector<std::string>& arguments, std::string_view input,
-              const std::vector<std::string>& environment) {
+ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, std::string_view input,
+                      const std::vector<std::string>& environment) {
   std::vector<std::string> words = arguments, variables = environment_with(environment);
   words.insert(words.begin(), program);
-  const int in = open_text(input);
+  const int in = open_text(input), out = open_text({});
   posix_spawn_file_actions_t streams;
   ::posix_spawn_file_actions_init(&streams);
   ::posix_spawn_file_actions_adddup2(&streams, in, STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, out, STDOUT_FILENO);
   pid_t child = 0;
   const int error =
       ::posix_spawn(&child, program.c_str(), &streams, nullptr, pointers(words).data(), pointers(variables).data());
   ::posix_spawn_file_actions_destroy(&streams);
   ::close(in);
-  if (error != 0) fail(error, program.c_str());
+  if (error != 0) ::close(out), fail(error, program.c_str());
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) fail(errno, "waitpid");
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out)};
 }
 
 std::string image_by_command(const std::string& command, std::string_view scene_json,
                              const std::vector<std::string>& environment) {
   const TemporaryFolder folder;
   const std::string image = folder.file("image.exr");
-  if (run_child(command, {"render", "-", "-o", image}, scene_json, environment) != 0) return {};
+  if (run_child(command, {"render", "-", "-o", image}, scene_json, environment).status != 0) return {};
   std::ifstream in(image, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string rays_by_command(const std::string& command, std::string_view scene_json, int x, int y,
+                            const std::vector<std::string>& environment) {
+  const std::string pixel = std::to_string(x) + "," + std::to_string(y);
+  ChildResult result = run_child(command, {"render", "-", "--pixel", pixel}, scene_json, environment);
+  return result.status == 0 ? std::move(result.output) : std::string();
 }
 
 }  // namespace tilelight::check

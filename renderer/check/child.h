@@ -15,14 +15,23 @@ struct Variable {
 inline constexpr Variable kPlainLibrary{"GLIBC_TUNABLES",
                                         "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F,-AVX2_Usable,-FMA_Usable"};
 
+struct ChildResult {
+  int status = 0;  // the exit code, or 128 + the signal that ended it
+  std::string output;
+};
 // Runs the program with `input` on its standard input, in this process's environment and `environment` ("NAME=value").
-// Returns its exit code, or 128 + the signal that ended it. Throws std::system_error if it cannot be started.
-int run_child(const std::string& program, const std::vector<std::string>& arguments, std::string_view input,
-              const std::vector<std::string>& environment);
+// Throws std::system_error if it cannot be started.
+ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, std::string_view input,
+                      const std::vector<std::string>& environment);
 
 // The bytes of the half-float image that the tilelight command renders of the scene in a process of its own; empty if
 // it fails.
 std::string image_by_command(const std::string& command, std::string_view scene_json,
                              const std::vector<std::string>& environment);
+
+// All doubles of the rays behind one pixel (origins, directions, distances, normals, light) as the same command prints
+// them, to the last bit; empty if it fails.
+std::string rays_by_command(const std::string& command, std::string_view scene_json, int x, int y,
+                            const std::vector<std::string>& environment);
 
 }  // namespace tilelight::check

@@ -95,7 +95,7 @@ double contraction(int count) {
 
 Outcome of_instruction_sets(const Context& context) {
   double isas_off = 0.0;
-  int64_t other_images = 0;
+  int64_t other_images = 0, other_rays = 0;
   for (const char* json : kScenes) {
     const IsaChoice choice;
     Bits first;
@@ -106,14 +106,18 @@ Outcome of_instruction_sets(const Context& context) {
       note(isas_off, differing_bits(first.rgb, bits.rgb));
     }
     if (context.is_quick && json != kShowcase) continue;
+    const std::vector<std::string> masked = {std::string(kPlainLibrary.name) + "=" + kPlainLibrary.value};
     const std::string image = image_by_command(context.command, json, {});
-    other_images +=
-        image.empty() ||
-        image != image_by_command(context.command, json, {std::string(kPlainLibrary.name) + "=" + kPlainLibrary.value});
+    other_images += image.empty() || image != image_by_command(context.command, json, masked);
+    for (const int at : {10, 17, 24}) {  // the image has 11 bits a value, these have all
+      const std::string rays = rays_by_command(context.command, json, at, at, {});
+      other_rays += rays.empty() || rays != rays_by_command(context.command, json, at, at, masked);
+    }
   }
   return {{at_least(2, "instruction sets", static_cast<double>(available_isas().size())),
            at_most(0, "pixels that differ with the instruction set, %", isas_off),
-           at_most(0, "images that differ without AVX2 and FMA in the C library", static_cast<double>(other_images))},
+           at_most(0, "images that differ without AVX2 and FMA in the C library", static_cast<double>(other_images)),
+           at_most(0, "pixels whose rays differ there in a bit", static_cast<double>(other_rays))},
           {at_most(0, "values that differ, %", contraction(1000))}};
 }
 
