@@ -81,6 +81,7 @@ struct Verdict {
   Outcome outcome;
   double ms = 0.0;
 
+  bool holds() const { return passes() && naive_fails(); }
   bool passes() const;       // all of ours hold, and there is one
   bool naive_fails() const;  // each naive number breaks its bound; true where there is none
 };

@@ -32,7 +32,8 @@ std::vector<Row> chosen_rows(const std::vector<std::string>& only) {
     if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return is_named(row, name); })) continue;
     std::string letters;
     for (const Row& row : rows) {
-      if (letters.empty() || letters.back() != row.id[0]) letters += (letters.empty() ? "" : ", ") + std::string(1, row.id[0]);
+      if (letters.empty() || letters.back() != row.id[0])
+        letters += (letters.empty() ? "" : ", ") + std::string(1, row.id[0]);
     }
     std::fprintf(stderr, "tilelight: no row is called '%s'; the groups are %s, their rows S1, S2, ...\n", name.c_str(),
                  letters.c_str());
@@ -64,7 +65,7 @@ void print_line(const std::string& who, const Measured& m, const char* verdict) 
 
 void print_verdict(const Verdict& v) {
   std::printf("%-4s  %s: %s  (%.1f s)  %s\n", v.row.id, v.row.name, v.row.extreme, v.ms / 1000.0,
-              v.passes() && v.naive_fails() ? "pass" : "FAIL");
+              v.holds() ? "pass" : "FAIL");
   for (const Measured& m : v.outcome.ours) print_line("ours", m, m.holds() ? "" : "FAIL");
   for (const Measured& m : v.outcome.naive)
     print_line("naive", m, m.holds() ? "FAIL: the case does not bite" : "breaks it, as it should");
@@ -91,8 +92,7 @@ ExitCode run_check(const CheckArguments& arguments) {
     ms += verdicts.back().ms;
     if (!arguments.json) print_verdict(verdicts.back());
   }
-  const auto failed = std::count_if(verdicts.begin(), verdicts.end(),
-                                    [](const Verdict& v) { return !(v.passes() && v.naive_fails()); });
+  const auto failed = std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.holds(); });
   if (arguments.json) {
     std::printf("%s\n", check::verdicts_json(verdicts).c_str());
   } else {

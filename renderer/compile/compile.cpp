@@ -44,9 +44,7 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   out->lights = drop_dead_lights(scene, out->materials, left_out);
   rebase_and_normalise(bodies, pool, *out);
   rebase_lights(*out);
-  out->media = static_cast<size_t>(std::count_if(out->bodies.begin(), out->bodies.end(), [&](const CompiledBody& b) {
-    return b.closed && out->materials[b.material].is_transmissive;
-  }));
+  for (uint32_t i = 0; i < out->bodies.size(); ++i) out->media += is_medium(*out, i);
   out->radiance_bound = find_radiance_bound(*out);
   out->plan.features = find_features(*out, left_out);
   out->tree = build_scene_tree(*out, pool);

@@ -86,4 +86,9 @@ struct CompiledScene {
   Plan plan;
 };
 
+// A solid that lets light through; rays remember which of them they are in.
+inline bool is_medium(const CompiledScene& scene, uint32_t body) {
+  return scene.bodies[body].closed && scene.materials[scene.bodies[body].material].is_transmissive;
+}
+
 }  // namespace tilelight

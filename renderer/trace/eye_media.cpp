@@ -65,19 +65,15 @@ EyeMedia::EyeMedia(const CompiledScene& scene, const ViewPlan& plan) : scene_(sc
   }
   MediaList all;
   for (uint32_t i = 0; i < scene.finite_bodies; ++i) {
-    if (is_medium(i)) all.push_back(i);
+    if (is_medium(scene, i)) all.push_back(i);
   }
   around_all_ = around(plan.eye.origin, all);
-}
-
-bool EyeMedia::is_medium(uint32_t body) const {
-  return scene_.bodies[body].closed && scene_.materials[scene_.bodies[body].material].is_transmissive;
 }
 
 void EyeMedia::find_cuts(const Eye& eye) {
   const Vec3 corner = eye.origin + eye.corner;
   for (uint32_t i = 0; i < scene_.finite_bodies; ++i) {
-    if (!is_medium(i)) continue;
+    if (!is_medium(scene_, i)) continue;
     const Box box = body_bounds(scene_.bodies[i]);
     const Interval depth = reach_along(box, corner, eye.forward);
     if (depth.low > 0.0 || depth.high < 0.0) continue;

@@ -33,7 +33,6 @@ class EyeMedia {
     double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
   };
   void find_cuts(const Eye& eye);
-  bool is_medium(uint32_t body) const;
 
   const CompiledScene& scene_;
   MediaList around_all_;

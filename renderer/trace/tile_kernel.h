@@ -266,14 +266,10 @@ class TileKernel {
     return visible_[0];
   }
 
-  bool is_medium(uint32_t body) const {
-    return scene_.bodies[body].closed && scene_.materials[scene_.bodies[body].material].is_transmissive;
-  }
-
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
   // ray gets no deeper.
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
-    while (hit.is_hit() && is_medium(hit.body) && !is_cancelled()) {
+    while (hit.is_hit() && is_medium(scene_, hit.body) && !is_cancelled()) {
       const Surface surface = make_surface(scene_, ray.ray, hit);
       const size_t media_before = media_.size();
       const Crossing crossing(media_, path.media, hit.body, surface.from_outside);
@@ -291,7 +287,7 @@ class TileKernel {
     Scatter out;
     if (!kCan.glass || !m.is_transmissive) {
       out = scatter_opaque(surface, ray.direction);
-    } else if (is_medium(surface.here.body)) {
+    } else if (is_medium(scene_, surface.here.body)) {
       const Crossing crossing(media_, path.media, surface.here.body, surface.from_outside);
       out = scatter_transparent(surface, ray.direction, media_.ior(crossing.before), media_.ior(crossing.after));
       here = crossing.before, beyond = crossing.after;
