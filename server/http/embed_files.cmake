@@ -17,6 +17,7 @@ function(row file path media_type out)
 endfunction()
 
 file(GLOB_RECURSE files RELATIVE ${WEB} ${WEB}/*)
+list(FILTER files EXCLUDE REGEX "^package.json$") # it tells Node.js alone that these are ES modules
 list(SORT files)
 set(data "")
 set(rows "")

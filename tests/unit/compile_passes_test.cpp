@@ -180,7 +180,8 @@ TEST_F(Compile, KeepsBodiesFiniteThatAreTooSmallForTheirScene) {
   scene.objects = {sphere_at({0, 0, 0}, 1e-320), sphere_at({1e30, 0, 0}, 1e30), sphere_at({0, 0, 0}, 1e-30)};
   scene.objects[2].world_from_shape[1] *= 1e-320;
   const auto expect_finite = [&] {
-    for (const CompiledBody& body : compile_scene(scene, pool_)->bodies) {
+    const auto compiled = compile_scene(scene, pool_);
+    for (const CompiledBody& body : compiled->bodies) {
       for (const Mat4& m : {body.world_from_local, body.local_from_world}) {
         for (int column = 0; column < 4; ++column) {
           for (int row = 0; row < 4; ++row) EXPECT_TRUE(std::isfinite(m[column][row])) << body.body;
