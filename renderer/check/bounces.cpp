@@ -72,10 +72,6 @@ double differing_paths(std::string_view json, TilePool& pool) {
   return differing;
 }
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return 2.0 * elementary::atan2(glm::length(a - b), glm::length(a + b));
-}
-
 double arcsine(double x) { return elementary::atan2(x, std::sqrt((1.0 - x) * (1.0 + x))); }
 
 Vec3f naive_refract(const Vec3f& direction, const Vec3f& normal, float eta) {

@@ -10,6 +10,8 @@
 
 namespace tilelight::check {
 
+inline const Vec3 kFront(0.0, 0.0, 5.0), kBackward(0.0, 0.0, -1.0);  // an eye before the scene, and its view
+
 // Members of a document: no light, and rays that go on until they leave. direction: of the view, from `from` on.
 std::string long_paths(int size, double height, const Vec3& from, const Vec3& direction, int max_depth);
 
@@ -35,7 +37,6 @@ double worst_path(const PathScene& scene, TilePool& pool, Visit visit) {
 // The pixels whose rays do not meet the same surfaces in the same order as the reference's, ray by ray.
 double differing_paths(std::string_view json, TilePool& pool);
 
-double angle_between(const Vec3& a, const Vec3& b);  // of unit vectors, exact for small ones too
 double arcsine(double x);
 
 // Snell's law in float as shading languages have it; no direction (all 0) in total reflection.

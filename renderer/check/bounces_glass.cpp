@@ -13,7 +13,6 @@ namespace tilelight::check {
 namespace {
 
 const std::string kClear = R"({"ambient": 0, "diffuse": 0, "transmission": 1)";  // an open brace for more
-const Vec3 kFront(0.0, 0.0, 5.0), kBackward(0.0, 0.0, -1.0);
 
 // Half of what a ball gets is mirrored, half goes in: a tree of 2^(D + 1) rays inside the first ball alone.
 std::string glass_balls(int size, int ray_budget) {

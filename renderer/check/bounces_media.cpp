@@ -10,8 +10,6 @@
 namespace tilelight::check {
 namespace {
 
-const Vec3 kFront(0.0, 0.0, 5.0), kBackward(0.0, 0.0, -1.0);
-
 std::string medium(double ior, int priority, double reflection) {
   return R"("material": {"ambient": 0, "diffuse": 0, "reflection": )" + digits(reflection) + R"(, "transmission": )" +
          digits(1.0 - reflection) + R"(, "ior": )" + digits(ior) + R"(, "priority": )" + digits(priority) + "}}";

@@ -4,6 +4,7 @@
 // ours keeps it, else the case would show nothing. README.md tells where the bounds come from.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -39,6 +40,8 @@ inline Measured within(double tolerance, std::string what, double value, double 
 inline void note(double& worst, double value) {
   if (!(value <= worst)) worst = value >= 0.0 ? value : std::numeric_limits<double>::infinity();
 }
+
+inline double percent(int64_t part, int64_t of) { return 100.0 * static_cast<double>(part) / static_cast<double>(of); }
 
 struct Outcome {
   std::vector<Measured> ours;   // all have to hold

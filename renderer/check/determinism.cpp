@@ -36,13 +36,6 @@ Bits bits_of(std::string_view json, TilePool& pool, int tile_px) {
   return bits_of(compile_scene(parsed.scene, pool), parsed.view, pool, tile_px);
 }
 
-double differing_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  if (a.size() != b.size() || a.empty()) return 100.0;
-  size_t count = 0;
-  for (size_t i = 0; i < a.size(); i += 3) count += std::memcmp(&a[i], &b[i], 3 * sizeof(float)) != 0;
-  return 300.0 * static_cast<double>(count) / static_cast<double>(a.size());
-}
-
 namespace {
 
 constexpr const char* kScenes[] = {kShowcase, kChess, kExtremes};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/check/check.h"
+#include "renderer/check/pictures.h"
 #include "renderer/render/render.h"
 #include "renderer/trace/isa.h"
 
@@ -29,9 +30,6 @@ class IsaChoice {
  private:
   std::string before_ = current_isa();
 };
-
-// Pixels of which any bit differs, %.
-double differing_bits(const std::vector<float>& a, const std::vector<float>& b);
 
 // The rows of determinism_order.cpp and determinism_twin.cpp.
 Outcome of_replays(const Context& context);

@@ -16,12 +16,6 @@ namespace {
 int study_px(const Context& context) { return context.is_quick ? 160 : 512; }
 constexpr int kTextbookPx = 128;  // percentages need no more, and the textbook tries every triangle
 
-double differing_values(const std::vector<float>& a, const std::vector<float>& b) {
-  size_t count = 0;
-  for (size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
-  return 100.0 * static_cast<double>(count) / static_cast<double>(a.size());
-}
-
 Outcome powers_of_two(const Context& context) {
   Outcome out;
   const auto compare = [&](AttenuationMode mode, int exponent) {
@@ -32,7 +26,7 @@ Outcome powers_of_two(const Context& context) {
       const std::string at = " at 2^" + std::to_string(k) + ", %";
       const Picture picture = picture_of(scaled(base, std::ldexp(1.0, k)), context.pool);
       out.ours.push_back(
-          at_most(0, "values that differ in a bit" + at, differing_values(unscaled.linear, picture.linear)));
+          at_most(0, "pixels that differ in a bit" + at, differing_bits(unscaled.linear, picture.linear)));
       out.ours.push_back(at_most(0, "first surfaces that differ" + at, differing_ids(unscaled.ids, picture.ids)));
       const auto broken = textbook_picture(scaled(small, std::ldexp(1.0, k)), context.pool);
       out.naive.push_back(at_most(0, "pixels that differ" + at, differing_pixels(textbook.rgb, broken.rgb)));
@@ -51,8 +45,7 @@ Outcome ends_of_double(const Context& context) {
   for (const int k : {96, -660}) {
     const std::string at = " at 2^" + std::to_string(k) + ", %";
     const Picture picture = picture_of(scaled(base, std::ldexp(1.0, k)), context.pool);
-    out.ours.push_back(
-        at_most(0, "values that differ in a bit" + at, differing_values(unscaled.linear, picture.linear)));
+    out.ours.push_back(at_most(0, "pixels that differ in a bit" + at, differing_bits(unscaled.linear, picture.linear)));
     out.ours.push_back(at_most(0, "first surfaces that differ" + at, differing_ids(unscaled.ids, picture.ids)));
   }
   out.naive.push_back(at_most(0, "first surfaces that differ in float at 2^96, %",

@@ -39,10 +39,6 @@ Spot random_spot(int body, Random& random) {
   return {on_ball / (size.x + size.y + size.z), glm::sign(on_ball)};
 }
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return elementary::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 // Rays at points that are known, from so near that the rounding of their start says nothing.
 void measure_normals(const Context& context, const Stretch& stretch, Outcome& out) {
   const int count = context.is_quick ? 2'000 : 50'000;

@@ -14,13 +14,6 @@
 namespace tilelight::check {
 namespace {
 
-double percent(int64_t part, int64_t of) { return 100.0 * static_cast<double>(part) / static_cast<double>(of); }
-
-std::string image_text(int width, int height) {
-  return R"("image":{"width":)" + std::to_string(width) + R"(,"height":)" + std::to_string(height) + "}";
-}
-int side_of(const Context& context) { return context.is_quick ? 128 : 512; }
-
 // A plane along no axis: unit vectors in it and across it.
 const Vec3 kAcross(2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0), kAlong(6.0 / 7.0, 2.0 / 7.0, -3.0 / 7.0),
     kNormal(-3.0 / 7.0, 6.0 / 7.0, -2.0 / 7.0);

@@ -2,20 +2,13 @@
 #include "renderer/check/pictures.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "renderer/film/tone.h"
 #include "renderer/trace/primary_ids.h"
 
 namespace tilelight::check {
-namespace {
-
-double percent(size_t count, size_t of) {
-  return of ? 100.0 * static_cast<double>(count) / static_cast<double>(of) : 0.0;
-}
-
-}  // namespace
-
 ParsedScene scene_of(std::string_view json) {
   auto parsed = parse_scene(json, Limits{});
   if (!parsed) {
@@ -24,6 +17,10 @@ ParsedScene scene_of(std::string_view json) {
   }
   if (parsed->view.render.samples_implied) parsed->view.render.samples = 1;
   return *std::move(parsed);
+}
+
+std::string image_text(int width, int height) {
+  return R"("image":{"width":)" + std::to_string(width) + R"(,"height":)" + std::to_string(height) + "}";
 }
 
 Picture picture_of(const ParsedScene& parsed, TilePool& pool, int tile_px) {
@@ -50,13 +47,20 @@ Picture picture_of(const ParsedScene& parsed, TilePool& pool, int tile_px) {
 double differing_ids(const std::vector<uint64_t>& a, const std::vector<uint64_t>& b) {
   size_t count = 0;
   for (size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
-  return percent(count, a.size());
+  return percent(static_cast<int64_t>(count), static_cast<int64_t>(a.size()));
 }
 
 double differing_pixels(const std::vector<uint8_t>& rgb_a, const std::vector<uint8_t>& rgb_b) {
   size_t count = 0;
   for (size_t i = 0; i < rgb_a.size(); i += 3) count += !std::equal(&rgb_a[i], &rgb_a[i] + 3, &rgb_b[i]);
-  return percent(count, rgb_a.size() / 3);
+  return percent(static_cast<int64_t>(count), static_cast<int64_t>(rgb_a.size() / 3));
+}
+
+double differing_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  if (a.size() != b.size() || a.empty()) return 100.0;
+  size_t count = 0;
+  for (size_t i = 0; i < a.size(); i += 3) count += std::memcmp(&a[i], &b[i], 3 * sizeof(float)) != 0;
+  return 300.0 * static_cast<double>(count) / static_cast<double>(a.size());
 }
 
 double coverage(const std::vector<uint64_t>& ids, uint32_t body) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "renderer/check/check.h"
 #include "renderer/measure/judge.h"
 #include "renderer/render/render.h"
 #include "renderer/scene/parse.h"
@@ -14,6 +16,10 @@ namespace tilelight::check {
 
 // Of a document that is known to be good; throws std::logic_error with its first error.
 ParsedScene scene_of(std::string_view json);
+
+// "image": {...} of a document; and the catalogue's usual edge, pixels.
+std::string image_text(int width, int height);
+inline int side_of(const Context& context) { return context.is_quick ? 128 : 512; }
 
 // One sample a pixel unless the document says otherwise.
 struct Picture {
@@ -31,6 +37,8 @@ Picture picture_of(const ParsedScene& parsed, TilePool& pool, int tile_px = 0);
 
 // In percent of all pixels. REQUIRES: pictures of one size.
 double differing_ids(const std::vector<uint64_t>& a, const std::vector<uint64_t>& b);
+// Any bit of any channel, linear RGB.
+double differing_bits(const std::vector<float>& a, const std::vector<float>& b);
 double differing_pixels(const std::vector<uint8_t>& rgb_a, const std::vector<uint8_t>& rgb_b);
 
 // The pixels of `ids` that show the body, as a part of all.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/check/rays.h"
 
+#include "renderer/base/elementary.h"
 #include "renderer/check/pictures.h"
 #include "renderer/shade/surface.h"
 #include "renderer/trace/trace_rays.h"
@@ -31,6 +32,10 @@ std::vector<RayScene::Hit> RayScene::nearest(std::span<const Aim> rays) const {
 RayScene::Hit RayScene::nearest(const Vec3& origin, const Vec3& direction) const {
   const Aim aim{origin, direction};
   return nearest({&aim, 1})[0];
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return 2.0 * elementary::atan2(glm::length(a - b), glm::length(a + b));
 }
 
 uint64_t Random::next() {

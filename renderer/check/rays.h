@@ -38,6 +38,9 @@ class RayScene {
   std::shared_ptr<const CompiledScene> scene_;
 };
 
+// Of unit vectors, rad; exact for small angles too (Kahan).
+double angle_between(const Vec3& a, const Vec3& b);
+
 // SplitMix64 (Steele, Lea and Flood 2014).
 class Random {
  public:

@@ -119,13 +119,11 @@ ShellCounts shell_counts(const std::string& inner, double inner_ior, const Conte
   return sum;
 }
 
-double percent(int64_t count, int64_t of) { return 100.0 * static_cast<double>(count) / static_cast<double>(of); }
-
 // Pixels that two renderers see, and those that at least one sees.
 struct Overlap {
   int64_t both = 0, either = 0;
   void add(bool a, bool b) { both += a && b, either += a || b; }
-  double percent() const { return 100.0 * static_cast<double>(both) / static_cast<double>(either); }
+  double percent() const { return check::percent(both, either); }
 };
 
 std::vector<ReferencePixel> reference_pixels(const ParsedScene& parsed, TilePool& pool) {

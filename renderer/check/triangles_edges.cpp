@@ -13,8 +13,6 @@
 namespace tilelight::check {
 namespace {
 
-double percent(int64_t part, int64_t of) { return 100.0 * static_cast<double>(part) / static_cast<double>(of); }
-
 // An orthonormal frame along no axis; its entries are sevenths.
 const Vec3 kAcross(2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0), kAlong(3.0 / 7.0, -6.0 / 7.0, 2.0 / 7.0),
     kNormal(6.0 / 7.0, 2.0 / 7.0, -3.0 / 7.0);

@@ -13,13 +13,6 @@
 namespace tilelight::check {
 namespace {
 
-double percent(int64_t part, int64_t of) { return 100.0 * static_cast<double>(part) / static_cast<double>(of); }
-
-std::string image_text(int side) {
-  return R"("image":{"width":)" + std::to_string(side) + R"(,"height":)" + std::to_string(side) + "}";
-}
-int side_of(const Context& context) { return context.is_quick ? 128 : 512; }
-
 // The mesh with every fourth corner on a copy of its vertex, and after every triangle of each ten the first three
 // followed by one without area: an index twice, two copies of a vertex, three points of a line.
 struct Littered {
@@ -96,7 +89,7 @@ std::string pages_and_bowl(bool flip, int side) {
       {"type":"mesh","mesh":"bowl","translate":[1.7,0,0.4],
        "material":{"diffuse":0.3,"transmission":[0.5,0.6,0.7],"reflection":0.2,"ior":1.5}}],
       "camera":{"position":[1.2,2.5,4.5],"target":[0.8,-0.2,0]},)" +
-         image_text(side) + "}";
+         image_text(side, side) + "}";
 }
 
 // Eyes around the bowl that are taken to be in its glass. An open mesh holds nothing.
@@ -134,8 +127,8 @@ std::string ball_of_size(double size, int side) {
          text(size * Vec3(-2.0, -1.2, -2.0)) + R"(,"max":)" + text(size * Vec3(2.0, -1.0, 2.0)) +
          R"(}],"lights":[{"type":"point","position":)" + text(size * Vec3(3.0, 4.0, 2.0)) + R"(,"intensity":)" +
          text(6.0 * size) + R"(}],"attenuation":{"mode":"linear","k":)" + text(2.0 * size) +
-         R"(},"camera":{"position":)" + text(size * Vec3(1.5, 1.2, 4.0)) + R"(,"target":[0,0,0]},)" + image_text(side) +
-         "}";
+         R"(},"camera":{"position":)" + text(size * Vec3(1.5, 1.2, 4.0)) + R"(,"target":[0,0,0]},)" +
+         image_text(side, side) + "}";
 }
 
 }  // namespace
@@ -144,7 +137,7 @@ Outcome degenerate_triangles(const Context& context) {
   const auto document = [&](const MeshData& mesh) {
     return R"({"meshes":{"m":)" + mesh_text(mesh, R"(,"crease_deg":40)") +
            R"(},"objects":[{"type":"mesh","mesh":"m","material":{"specular":0.5,"reflection":0.2}}],)" +
-           image_text(side_of(context)) + "}";
+           image_text(side_of(context), side_of(context)) + "}";
   };
   const MeshData clean = icosphere(2);
   const Littered dirty = littered(clean);
