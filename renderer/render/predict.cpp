@@ -21,13 +21,7 @@ double ms_since(Clock::time_point start) {
 
 int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect) {
   TileCounts counts;
-  TileJob job;
-  job.scene = &scene;
-  job.plan = &plan;
-  job.eye_media = &eye_media;
-  job.rect = rect;
-  job.counts = &counts;
-  kernel_of(plan.variant)(job);
+  kernel_of(plan.variant)({.scene = &scene, .plan = &plan, .eye_media = &eye_media, .rect = rect, .counts = &counts});
   return counts.primary + counts.shadow + counts.reflected + counts.refracted;
 }
 

@@ -266,6 +266,7 @@ class TileRender final : public Render, public WorkSource {
     rays_.reflected += counts.reflected;
     rays_.refracted += counts.refracted;
     nonfinite_ += counts.nonfinite;
+    lights_on_hits_ += counts.lights_on_hits;
     untraced_weight_ = std::max(untraced_weight_, counts.untraced_weight);
     cpu_ms_ += item_ms;
   }
@@ -278,6 +279,7 @@ class TileRender final : public Render, public WorkSource {
     point.cpu_ms = cpu_ms_;
     point.rays = rays_;
     point.nonfinite = nonfinite_;
+    point.lights_on_hits = lights_on_hits_;
     if (untraced_weight_ == 0.0) {
       point.truncation_bound = 0.0;
     } else if (scene_->radiance_bound >= 0.0) {
@@ -319,7 +321,7 @@ class TileRender final : public Render, public WorkSource {
   double item_ms_per_sample_ = 0.0;
   double cpu_ms_ = 0.0, untraced_weight_ = 0.0;
   RayCounts rays_;
-  int64_t nonfinite_ = 0;
+  int64_t nonfinite_ = 0, lights_on_hits_ = 0;
   RenderReport report_;
   std::shared_ptr<const Image> image_;
 };

@@ -34,6 +34,7 @@ struct ReportPoint {
   RayCounts rays;
   double truncation_bound = -1.0;  // bound of the mean linear value left untraced; < 0: none is finite
   int64_t nonfinite = 0;           // samples that were not finite; each is a bug
+  int64_t lights_on_hits = 0;      // lights at the very point of a hit, where they bring nothing
 };
 
 struct RenderReport {

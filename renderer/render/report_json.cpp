@@ -19,10 +19,11 @@ std::string report_json(const RenderReport& report, const Plan& plan) {
                         {"reflected", p.rays.reflected},
                         {"refracted", p.rays.refracted}}},
                       {"truncation_bound", p.truncation_bound < 0.0 ? Json(nullptr) : Json(p.truncation_bound)},
-                      {"nonfinite", p.nonfinite}});
+                      {"nonfinite", p.nonfinite},
+                      {"lights_on_hits", p.lights_on_hits}});
   }
-  const Json out = {{"points", points},         {"stop", report.stop},       {"passes", report.passes},
-                    {"threads", report.threads}, {"kernel", plan.kernel},     {"isa", plan.isa}};
+  const Json out = {{"points", points},          {"stop", report.stop},   {"passes", report.passes},
+                    {"threads", report.threads}, {"kernel", plan.kernel}, {"isa", plan.isa}};
   return out.dump();
 }
 

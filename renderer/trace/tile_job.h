@@ -19,8 +19,9 @@ namespace tilelight {
 struct TileCounts {
   int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;  // rays
   int64_t nonfinite = 0;                                          // samples that were not finite, or over 1e34
-  double untraced_weight = 0.0;                                   // largest weight one sample left untraced
-  bool is_complete = false;  // false: cancelled on the way; the tile holds part of its samples
+  int64_t lights_on_hits = 0;    // lights that lay on the very point they should light: they bring nothing
+  double untraced_weight = 0.0;  // largest weight one sample left untraced
+  bool is_complete = false;      // false: cancelled on the way; the tile holds part of its samples
 };
 
 // Writes down every ray of one sample, for explanations. Called in breadth-first order.

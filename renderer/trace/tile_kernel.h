@@ -197,6 +197,7 @@ class TileKernel {
     const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
     for (const CompiledLight& source : scene_.lights) {
       const LightSample sample = sample_light(scene_, source, surface, -ray.direction, is_rounded);
+      counts_.lights_on_hits += sample.distance == 0.0;
       Color seen(0.0);
       if (sample.is_lit) {
         const Color arriving = path.weight * (sample.diffuse + sample.specular);

@@ -88,7 +88,9 @@ std::string jobs_json(const std::vector<JobRecord>& records) {
 
 std::string report_csv(const RenderReport& report) {
   std::string out =
-      "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,truncation_bound,nonfinite\n";
+      "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,truncation_bound,nonfinite,"
+      "lights_on_"
+      "hits\n";
   for (const ReportPoint& point : report.points) {
     // JSON's numbers are also CSV's: the shortest text that reads back to the same value.
     const Json row = {point.pass,
@@ -100,7 +102,8 @@ std::string report_csv(const RenderReport& report) {
                       point.rays.reflected,
                       point.rays.refracted,
                       point.truncation_bound,
-                      point.nonfinite};
+                      point.nonfinite,
+                      point.lights_on_hits};
     const std::string text = row.dump();
     out += text.substr(1, text.size() - 2) + "\n";
   }

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
 
+#include "renderer/check/kit/meshes.h"
+#include "renderer/check/kit/shots.h"
 #include "renderer/compile/compile.h"
 #include "renderer/shade/surface.h"
 #include "renderer/trace/intersect.h"
@@ -17,39 +18,7 @@
 namespace tilelight {
 namespace {
 
-// A closed mesh: an octahedron subdivided `levels` times onto the unit sphere.
-MeshData ball(int levels) {
-  MeshData mesh;
-  mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  mesh.indices = {2, 4, 0, 2, 0, 5, 2, 5, 1, 2, 1, 4, 3, 0, 4, 3, 5, 0, 3, 1, 5, 3, 4, 1};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
-      const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
-      if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
-      return it->second;
-    };
-    std::vector<uint32_t> finer;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-      const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-      const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      for (const uint32_t v : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca}) finer.push_back(v);
-    }
-    mesh.indices = finer;
-  }
-  return mesh;
-}
-
-Scene scene_of(std::vector<Shape> shapes) {
-  Scene scene;
-  scene.materials.resize(1);
-  for (Shape& shape : shapes) {
-    Object object;
-    object.shape = shape;
-    scene.objects.push_back(object);
-  }
-  return scene;
-}
+using check::icosphere, check::scene_of_shapes;
 
 Hit closest(const CompiledScene& scene, const Ray& ray) {
   const BoundedRay bounded{ray};
@@ -72,7 +41,7 @@ TEST_F(TraceRays, TakeTheFacetsNormalWhereOppositeOnesCancel) {
   square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   square.indices = {0, 1, 2, 0, 2, 3};
   square.normals = {{0, 0, 1}, {0, 0, -1}, {0, 0, -1}, {0, 0, 1}};
-  Scene scene = scene_of({MeshShape{0}});
+  Scene scene = scene_of_shapes({MeshShape{0}});
   scene.meshes = {square};
   const auto compiled = compile_scene(scene, pool_);
   for (const double y : {-0.75, -0.5, -0.125, 0.25, 0.5}) {
@@ -85,8 +54,8 @@ TEST_F(TraceRays, TakeTheFacetsNormalWhereOppositeOnesCancel) {
 
 TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
   for (const double far : {0.0, 1e2, 1e4, 1e7}) {
-    Scene scene = scene_of({MeshShape{0}});
-    scene.meshes = {ball(4)};
+    Scene scene = scene_of_shapes({MeshShape{0}});
+    scene.meshes = {icosphere(3)};
     const MeshData& mesh = scene.meshes[0];
     const auto compiled = compile_scene(scene, pool_);
     std::mt19937_64 random(7);
@@ -106,7 +75,7 @@ TEST_F(TraceRays, AimedAtEdgesAndVerticesOfAClosedMeshNeverLeakThrough) {
 }
 
 TEST_F(TraceRays, HitASphereWhereTheQuadraticSays) {
-  const auto compiled = compile_scene(scene_of({SphereShape{{0, 0, 0}, 1}}), pool_);
+  const auto compiled = compile_scene(scene_of_shapes({SphereShape{{0, 0, 0}, 1}}), pool_);
   for (const double distance : {2.0, 1e3, 1e6}) {
     for (const double b : {0.0, 0.3, 0.9, 0.999}) {
       const Hit hit = closest(*compiled, {{b, 0, distance}, {0, 0, -1}, {}});
@@ -144,7 +113,8 @@ TEST_F(TraceRays, AimedAtEdgesOfABoxNearlyAlongAFaceNeverMissIt) {
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 lower = any() * (i % 4 ? 1.0 : 1000.0), upper = lower + 0.1 + any();
     // The larger box beside it takes the middle of the scene away from the middle of the box.
-    const auto compiled = compile_scene(scene_of({BoxShape{lower, upper}, BoxShape{lower - 9.0, lower - 8.0}}), pool_);
+    const auto compiled =
+        compile_scene(scene_of_shapes({BoxShape{lower, upper}, BoxShape{lower - 9.0, lower - 8.0}}), pool_);
     Vec3 target = glm::mix(lower, upper, any()), direction = any() - 0.5;
     target[i % 3] = lower[i % 3], target[(i + 1) % 3] = upper[(i + 1) % 3];
     direction[i % 3] *= i % 2 ? 1.0 : 1e-6;
@@ -158,7 +128,7 @@ TEST_F(TraceRays, AimedAtEdgesOfABoxNearlyAlongAFaceNeverMissIt) {
 TEST_F(TraceRays, DoNotSlipBetweenTwoBoxesThatShareAFace) {
   std::vector<Shape> wall;
   for (int i = 0; i < 64; ++i) wall.push_back(BoxShape{{0.1 * i, -0.3, 0.1}, {0.1 * (i + 1), 0.4, 0.7}});
-  const auto compiled = compile_scene(scene_of(wall), pool_);
+  const auto compiled = compile_scene(scene_of_shapes(wall), pool_);
   for (int i = 1; i < 64; ++i) {
     const Vec3 from(0.1 * i, 0.05, 3.0);
     EXPECT_TRUE(closest(*compiled, {(from - compiled->center) / compiled->units, {0, 0, -1}, {}}).is_hit()) << i;
@@ -168,7 +138,7 @@ TEST_F(TraceRays, DoNotSlipBetweenTwoBoxesThatShareAFace) {
 TEST_F(TraceRays, FromASheetOnAFloorReachTheLightWhereverTheSheetIsSeen) {
   constexpr double kGap = 5e-14;  // more than the noise of a ray from the eye, less than that of one from a surface
   const auto compiled = compile_scene(
-      scene_of({BoxShape{{-1, -1, -1}, {1, 0, 1}}, BoxShape{{-0.8, kGap, -0.8}, {0.8, kGap, 0.8}}}), pool_);
+      scene_of_shapes({BoxShape{{-1, -1, -1}, {1, 0, 1}}, BoxShape{{-0.8, kGap, -0.8}, {0.8, kGap, 0.8}}}), pool_);
   const Ray down{Vec3(0.3, 1.0, 0.2) - compiled->center, {0, -1, 0}, {}};
   const Hit hit = closest(*compiled, down);
   ASSERT_TRUE(hit.is_hit());
@@ -179,7 +149,7 @@ TEST_F(TraceRays, FromASheetOnAFloorReachTheLightWhereverTheSheetIsSeen) {
 
 TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
   const auto compiled =
-      compile_scene(scene_of({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
+      compile_scene(scene_of_shapes({BoxShape{{-1, -1, 0}, {1, 1, 0}}, BoxShape{{-1, -1, 0}, {1, 1, 0}}}), pool_);
   for (int i = 0; i < 200; ++i) {
     const Vec3 aim(0.009 * (i - 100), 0.007 * (i - 90), 0.0), from(0.3, 0.2, 2.0);
     const Hit hit = closest(*compiled, {from, glm::normalize(aim - from), {}});
@@ -191,7 +161,7 @@ TEST_F(TraceRays, CoincidentBodiesShowTheLowestEverywhere) {
 TEST_F(TraceRays, TellSpheresApartThatHalveSixtyTimesTowardsTheOrigin) {
   std::vector<Shape> row;
   for (int k = 0; k <= 60; ++k) row.push_back(SphereShape{{3.0 * std::ldexp(1.0, -k), 0, 0}, std::ldexp(1.0, -k)});
-  const auto compiled = compile_scene(scene_of(row), pool_);
+  const auto compiled = compile_scene(scene_of_shapes(row), pool_);
   const auto from = [&](const Vec3& eye, const Vec3& direction) {
     return closest(*compiled, {(eye - compiled->center) / compiled->units, direction, {}});
   };
@@ -218,8 +188,8 @@ TEST_F(TraceRays, ThatTouchASphereBehindThemDoNotHitIt) {
 // Any hit is sometimes accepted in float; the nearest hit never is.
 TEST_F(TraceRays, OfAnyHitAgreeWithThoseOfTheNearest) {
   for (const double size : {1.0, 1e-9}) {
-    Scene scene = scene_of({MeshShape{0}, MeshShape{0}, PlaneShape{{0, -1, 0}, {0, 1, 0}}});
-    scene.meshes = {ball(3)};
+    Scene scene = scene_of_shapes({MeshShape{0}, MeshShape{0}, PlaneShape{{0, -1, 0}, {0, 1, 0}}});
+    scene.meshes = {icosphere(3)};
     scene.objects[1].world_from_shape = Mat4(size);
     scene.objects[1].world_from_shape[3] = Vec4(1.2, 0.3, 0, 1);
     const auto compiled = compile_scene(scene, pool_);
@@ -260,9 +230,9 @@ TEST_F(TraceRays, OfAnyHitAgreeWithThoseOfTheNearest) {
 }
 
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
-  Scene scene =
-      scene_of({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
-  scene.meshes = {ball(3)};
+  Scene scene = scene_of_shapes(
+      {MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
+  scene.meshes = {icosphere(3)};
   const auto compiled = compile_scene(scene, pool_);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
