@@ -70,9 +70,11 @@ TEST(TheMaskOfD2, ChangesTheBitsOfTheCLibrary) {
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   for (size_t i = 1; i < line.size(); ++i) {
-    if (line[i] == '|')
+    if (line.compare(i, 2, "\\|") == 0)
+      cells.back() += line[++i];
+    else if (line[i] == '|')
       cells.emplace_back();
-    else if (line.compare(i, 2, "\\|") != 0)
+    else
       cells.back() += line[i];
   }
   cells.pop_back();

@@ -54,8 +54,8 @@ function cameraFrom(list) {
 }
 
 const pipe = (bytes, stream) => new Response(new Blob([bytes]).stream().pipeThrough(stream));
-const deflate = async (text) => new Uint8Array(await pipe(text, new CompressionStream('deflate-raw')).arrayBuffer());
-const inflate = (bytes) => pipe(bytes, new DecompressionStream('deflate-raw')).text();
+const deflate = async (text) => new Uint8Array(await pipe(text, new CompressionStream('deflate')).arrayBuffer());
+const inflate = (bytes) => pipe(bytes, new DecompressionStream('deflate')).text();
 
 function toBase64Url(bytes) {
   let binary = '';

@@ -128,7 +128,7 @@ Outcome flat(const Context& context) {
       if (hit.is_hit) note(worst, std::abs(hit.t - 1.0));
     }
     const naive::RayF local{Vec3f(inverse * glm::vec4(Vec3f(origin), 1.0f)), glm::mat3(inverse) * Vec3f(down)};
-    textbook_misses += !naive::slabs(local, Vec3f(-1.0f), Vec3f(1.0f));
+    textbook_misses += !naive::slabs(local, Vec3f(-1.0f), Vec3f(1.0f), true);
   }
   const Picture quad_picture = picture_of(scene_of(kQuad), context.pool);
   const Picture disc_picture = picture_of(scene_of(kDisc), context.pool);

@@ -215,7 +215,7 @@ constexpr Row kRows[] = {
     {"L4", "superposition", "1000 lights, 999 of them 3e-8 of the first", "a sum in float, strong first",
      superposition},
     {"L5", "shininess under a headlight", "n = 0, 1, 1e2, 1e4, 1e6", "pow(dot, n) in float", lobe_range},
-    {"L6", "lobes at their guards", "R.V < 0; 0 with n = 0; 1 + 2e-7 with n = 1e9", "pow(dot, n) in float",
+    {"L6", "lobes at their guards", "R.V < 0; 0 with n = 0; 1 + 1e-7 with n = 1e9", "pow(dot, n) in float",
      lobe_guards},
     {"L7", "phases of a ball", "phi = 0, 0.5, pi / 2, 2.5", "N.L not clamped at 0", phases},
     {"L8", "light at infinity", "K = 0", "a point light at an infinite place", from_infinity},

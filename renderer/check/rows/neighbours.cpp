@@ -138,7 +138,7 @@ Outcome contact(const Context& context) {
     }
   }
   const auto is_entered = [](const naive::RayF& ray) {
-    const auto hit = naive::slabs(ray, Vec3f(kStanders[0].min), Vec3f(kStanders[0].max));
+    const auto hit = naive::slabs(ray, Vec3f(kStanders[0].min), Vec3f(kStanders[0].max), true);
     return hit && hit->near > kLift;
   };
   const TextbookTracer wall(scene_of(standing(kStanders[1], kFloors[0])).scene, kLift);
