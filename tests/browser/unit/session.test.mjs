@@ -43,6 +43,24 @@ function playServer() {
   return server;
 }
 
+// From here on setTimeout waits for tick(ms). By hand, as Node.js 18 has no mock timers that one could use.
+function stopTimers(t) {
+  const timers = new Map();
+  let nowMs = 0;
+  let last = 0;
+  t.mock.method(globalThis, 'setTimeout', (run, ms) => {
+    timers.set(++last, { run, atMs: nowMs + ms });
+    return last;
+  });
+  t.mock.method(globalThis, 'clearTimeout', (timer) => timers.delete(timer));
+  return (ms) => {
+    nowMs += ms;
+    for (const [timer, { run, atMs }] of timers) {
+      if (atMs <= nowMs && timers.delete(timer)) run();
+    }
+  };
+}
+
 const kScene = async () => '{}';
 const moving = (x) => ({ camera: { x }, moving: true });
 const still = (x) => ({ camera: { x }, moving: false });
@@ -77,12 +95,12 @@ test('the last small picture is seen before the full one is asked for', async ()
 });
 
 test('a moving view that never comes is given up for a newer one', async (t) => {
-  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const tick = stopTimers(t);
   const server = playServer();
   await server.session.open(kScene, () => moving(0));
   server.session.look(still(1));
   server.nowMs = kOverdueMs;
-  t.mock.timers.tick(kOverdueMs);
+  tick(kOverdueMs);
   await turn();
   assert.deepEqual(sentX(server), [0, 1]);
   assert.equal(server.overdue, 1);
@@ -114,12 +132,12 @@ test('a session that is gone is opened anew and shown the newest view', async ()
 test('a server out of reach is asked again, and the last wish is kept', async (t) => {
   const server = playServer();
   await server.session.open(kScene, () => still(0));
-  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const tick = stopTimers(t);
   server.failPut = new Unreachable();
   server.session.look(still(5));
   await turn();
   assert.equal(server.states.at(-1), 'offline');
-  t.mock.timers.tick(500);
+  tick(500);
   await turn();
   assert.equal(server.states.at(-1), 'live');
   assert.equal(server.views.at(-1).camera.x, 5);
@@ -148,7 +166,7 @@ test('a scene that the server refuses leaves the one on show alone', async () =>
 });
 
 test('a scene that is wanted while the server is away or busy is asked for until it comes', async (t) => {
-  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const tick = stopTimers(t);
   const server = playServer();
   const { openSession } = server.api;
   const answers = [new Unreachable(), new Problem(503, {}, 2)];
@@ -159,17 +177,17 @@ test('a scene that is wanted while the server is away or busy is asked for until
   const opening = server.session.open(kScene, () => still(0));
   await turn();
   assert.deepEqual(server.states, ['offline']);
-  t.mock.timers.tick(500);
+  tick(500);
   await turn();
   assert.deepEqual(server.states, ['offline', 'busy']);
-  t.mock.timers.tick(2000);
+  tick(2000);
   assert.equal((await opening).text, '{}');
   assert.equal(server.states.at(-1), 'live');
   assert.deepEqual(sentX(server), [0]);
 });
 
 test('a scene that waits for the server gives way to one that is wanted later', async (t) => {
-  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const tick = stopTimers(t);
   const server = playServer();
   const { openSession } = server.api;
   server.api.openSession = async () => { throw new Unreachable(); };
@@ -177,7 +195,7 @@ test('a scene that waits for the server gives way to one that is wanted later', 
   await turn();
   server.api.openSession = openSession;
   await server.session.open(kScene, () => still(1));
-  t.mock.timers.tick(500);
+  tick(500);
   await assert.rejects(first, Superseded);
   assert.equal(server.opened, 1);
   assert.deepEqual(sentX(server), [1]);
