@@ -41,6 +41,13 @@ inline void note(double& worst, double value) {
   if (!(value <= worst)) worst = value >= 0.0 ? value : std::numeric_limits<double>::infinity();
 }
 
+// How much longer code may take that a sanitizer has instrumented.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr double kSlowdown = 10.0;
+#else
+inline constexpr double kSlowdown = 1.0;
+#endif
+
 inline double percent(int64_t part, int64_t of) { return 100.0 * static_cast<double>(part) / static_cast<double>(of); }
 
 struct Outcome {

@@ -48,7 +48,7 @@ Outcome glass_tree(const Context& context) {
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const PathScene unbounded(glass_balls(1, kServersLimit), context.pool);
   return {{at_most(1e-5, "value + weight left untraced, off 1 by", apart), at_most(kBudget, "rays a sample", spent),
-           at_most(2.0, "processor time, s", seconds)},
+           at_most(2 * kSlowdown, "processor time, s", seconds)},
           {at_most(kBudget, "rays a sample", static_cast<double>(unbounded.path(0, 0).spent))}};
 }
 

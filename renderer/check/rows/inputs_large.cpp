@@ -125,7 +125,8 @@ Outcome of_large_documents(const Context& context) {
   }
   return {{at_most(0, "documents without an answer", static_cast<double>(unanswered)),
            at_most(100, "errors in one answer", static_cast<double>(most_errors)),
-           at_most(5, "the slowest, s on one core", slowest_s), at_most(512, "memory beside the text, MiB", most_mib)},
+           at_most(5 * kSlowdown, "the slowest, s on one core", slowest_s),
+           at_most(512, "memory beside the text, MiB", most_mib)},
           {at_most(8, "stack for 16 MiB of brackets, MiB", textbook_stack_mib(16u << 20))}};
 }
 
