@@ -129,6 +129,15 @@ struct Sifted {
 struct FilterShear {
   int kx, ky, kz;
   float sx, sy, sz;
+
+  // As Shear, in float: the axis is that of the longest component, so that no slope exceeds 1.
+  explicit FilterShear(const FilterRay& ray) {
+    const float x = std::abs(ray.direction[0]), y = std::abs(ray.direction[1]), z = std::abs(ray.direction[2]);
+    kz = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    sz = ray.inverse[kz];
+    sx = ray.direction[kx] * sz, sy = ray.direction[ky] * sz;
+  }
 };
 template <bool kSurely>
 HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ray, const FilterShear& s, float t_sure,
@@ -138,8 +147,8 @@ HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ra
   using V = hn::Vec<FloatTag>;
   const V ox = hn::Set(tag, ray.origin[s.kx]), oy = hn::Set(tag, ray.origin[s.ky]), oz = hn::Set(tag, ray.origin[s.kz]);
   const V sx = hn::Set(tag, s.sx), sy = hn::Set(tag, s.sy), sz = hn::Set(tag, s.sz);
-  // Points in the sheared plane are off by less than this: 29 roundings of 2^-25 (of origin, direction, vertex, shear
-  // and their products) come to 2^-20.1. What is discarded and what is accepted both rest on it.
+  // Points in the sheared plane are off by less than this: 33 roundings of 2^-25 (of origin, direction, vertex, shear
+  // and their products) come to 2^-19.9. What is discarded and what is accepted both rest on it.
   const V slack = hn::Set(tag, 0x1p-19f);
   Sifted out;
   for (size_t i = 0; i < 8; i += kLanes) {
@@ -150,32 +159,26 @@ HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ra
       y[v] = hn::Sub(hn::Sub(hn::Load(tag, block.vertex[v][s.ky] + i), oy), hn::Mul(sy, z));
       t[v] = hn::Mul(sz, z);
     }
-    auto some_positive = hn::MaskFromVec(hn::Zero(tag)), some_negative = some_positive;
-    auto all_positive = hn::Not(some_positive), all_negative = all_positive;
-    for (int e = 0; e < 3; ++e) {
-      const int a = (e + 1) % 3, b = (e + 2) % 3;
-      const V edge = hn::Sub(hn::Mul(x[b], y[a]), hn::Mul(y[b], x[a]));
-      const V bound =
-          hn::Mul(slack, hn::Add(hn::Add(hn::Abs(x[a]), hn::Abs(y[a])), hn::Add(hn::Abs(x[b]), hn::Abs(y[b]))));
-      const auto is_positive = hn::Gt(edge, bound), is_negative = hn::Lt(edge, hn::Neg(bound));
-      some_positive = hn::Or(some_positive, is_positive);
-      some_negative = hn::Or(some_negative, is_negative);
-      if constexpr (kSurely) {
-        all_positive = hn::And(all_positive, is_positive);
-        all_negative = hn::And(all_negative, is_negative);
-      }
+    V edge[3], most = hn::Zero(tag);
+    for (int v = 0; v < 3; ++v) {
+      const int p = (v + 1) % 3, q = (v + 2) % 3;
+      edge[v] = hn::Sub(hn::Mul(x[q], y[p]), hn::Mul(y[q], x[p]));
+      most = hn::Max(most, hn::Add(hn::Abs(x[v]), hn::Abs(y[v])));
     }
+    // No edge function is off by more than this: four coordinates times the slack.
+    const V bound = hn::Mul(hn::Add(slack, slack), most), under = hn::Neg(bound);
+    const V least = hn::Min(edge[0], hn::Min(edge[1], edge[2])), greatest = hn::Max(edge[0], hn::Max(edge[1], edge[2]));
     // The hit's t lies between those of the vertices.
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
     const auto in_reach = hn::And(hn::Le(nearest, hn::Set(tag, t_max)), hn::Ge(farthest, hn::Set(tag, ray.t_min)));
-    const auto maybe = hn::AndNot(hn::And(some_positive, some_negative), in_reach);
+    const auto maybe = hn::And(hn::Or(hn::Ge(least, under), hn::Le(greatest, bound)), in_reach);
     uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, maybe, bits);
     out.maybe |= static_cast<uint32_t>(bits[0]) << i;
     if constexpr (kSurely) {
       const float t_end = t_max - 2.0f * kFilterSlack * (1.0f + std::abs(t_max));
       const auto between = hn::And(hn::Gt(nearest, hn::Set(tag, t_sure)), hn::Lt(farthest, hn::Set(tag, t_end)));
-      hn::StoreMaskBits(tag, hn::And(hn::Or(all_positive, all_negative), between), bits);
+      hn::StoreMaskBits(tag, hn::And(hn::Or(hn::Gt(least, bound), hn::Lt(greatest, under)), between), bits);
       out.surely |= static_cast<uint32_t>(bits[0]) << i;
     }
   }
@@ -358,13 +361,7 @@ class Walk {
   bool visit_mesh(uint32_t index, const CompiledMesh& mesh, const LocalRay& local) {
     if (mesh.bvh.nodes.empty()) return false;
     const FilterRay filter = make_filter_ray(local, -start_.reach, best_.t);
-    const Shear shear(local.direction);
-    const FilterShear filter_shear{shear.kx,
-                                   shear.ky,
-                                   shear.kz,
-                                   static_cast<float>(shear.sx),
-                                   static_cast<float>(shear.sy),
-                                   static_cast<float>(shear.sz * filter.length)};
+    const FilterShear filter_shear(filter);
     // From here on a hit lies ahead without any doubt.
     const float t_sure = filter_t_max(2.0 * start_.reach, filter.shift, filter.length);
     StackEntry stack[kStackSize];
@@ -392,7 +389,7 @@ class Walk {
       while (candidates != 0) {
         const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(candidates);
         candidates &= candidates - 1;
-        if (!offer_triangle(index, mesh, local, block.id[lane], filter, shear)) continue;
+        if (!offer_triangle(index, mesh, local, block.id[lane], filter)) continue;
         if (kAnyHit) return true;
         found = true;
         t_max = filter_t_max(end_of_ties(best_.t), filter.shift, filter.length);
@@ -416,12 +413,12 @@ class Walk {
   }
 
   bool offer_triangle(uint32_t index, const CompiledMesh& mesh, const LocalRay& local, uint32_t id,
-                      const FilterRay& filter, const Shear& shear) {
+                      const FilterRay& filter) {
     if (ray_.left.body == index && ray_.left.prim == id) return false;
     const auto& tri = mesh.triangles[id];
     TriangleHit hit;
-    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], filter.moved, shear,
-                            hit)) {
+    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], filter.moved,
+                            Shear(local.direction), hit)) {
       return false;
     }
     const double t = filter.shift + hit.t;
