@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/check/kit/meshes.h"
 
-#include <array>
-#include <charconv>
 #include <map>
+
+#include "renderer/check/kit/pictures.h"
 
 namespace tilelight::check {
 
@@ -37,13 +37,6 @@ MeshData placed(MeshData mesh, double size, const Vec3& offset) {
   for (Vec3& p : mesh.positions) p = size * (p + offset);
   return mesh;
 }
-
-std::string text(double value) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-std::string text(const Vec3& v) { return "[" + text(v.x) + "," + text(v.y) + "," + text(v.z) + "]"; }
 
 std::string mesh_text(const MeshData& mesh, const std::string& more) {
   std::string out = R"({"positions":[)";

@@ -22,9 +22,6 @@ MeshData icosphere(int levels);
 // Every position p becomes size * (p + offset).
 MeshData placed(MeshData mesh, double size, const Vec3& offset);
 
-// The shortest text that reads back as the same number; "[x,y,z]".
-std::string text(double value);
-std::string text(const Vec3& v);
 // {"positions": [...], "indices": [...], <more>}
 std::string mesh_text(const MeshData& mesh, const std::string& more = {});
 // A document of this one mesh, without lights; object: more keys of the object, each with its comma before it.

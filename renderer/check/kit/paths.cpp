@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/check/kit/paths.h"
 
-#include <array>
-#include <cstdio>
-
 #include "renderer/check/kit/pictures.h"
 #include "renderer/trace/tile_job.h"
 
@@ -36,12 +33,6 @@ class Log : public RayListener {
 };
 
 }  // namespace
-
-std::string digits(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.17g", value);
-  return text.data();
-}
 
 PathScene::PathScene(std::string_view json, TilePool& pool) : PathScene(scene_of(json), pool) {}
 PathScene::PathScene(const ParsedScene& parsed, TilePool& pool)

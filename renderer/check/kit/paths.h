@@ -13,9 +13,6 @@
 
 namespace tilelight::check {
 
-// With all its digits, for scenes in JSON.
-std::string digits(double value);
-
 struct PathRay {
   int depth = 0;
   char kind = 'p';                   // primary, reflected, refracted: 'p', 'm', 't'

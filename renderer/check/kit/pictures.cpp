@@ -2,6 +2,8 @@
 #include "renderer/check/kit/pictures.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstring>
 #include <stdexcept>
 
@@ -18,6 +20,13 @@ ParsedScene scene_of(std::string_view json) {
   if (parsed->view.render.samples_implied) parsed->view.render.samples = 1;
   return *std::move(parsed);
 }
+
+std::string text(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string text(const Vec3& v) { return "[" + text(v.x) + "," + text(v.y) + "," + text(v.z) + "]"; }
 
 std::string image_text(int width, int height) {
   return R"("image":{"width":)" + std::to_string(width) + R"(,"height":)" + std::to_string(height) + "}";

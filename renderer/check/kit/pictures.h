@@ -19,6 +19,9 @@ ParsedScene scene_of(std::string_view json);
 
 // "image": {...} of a document; and the catalogue's usual edge, pixels.
 std::string image_text(int width, int height);
+// The shortest text that reads back as the same number; "[x,y,z]".
+std::string text(double value);
+std::string text(const Vec3& v);
 inline int side_of(const Context& context) { return context.is_quick ? 128 : 512; }
 
 // One sample a pixel unless the document says otherwise.

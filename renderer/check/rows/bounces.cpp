@@ -45,12 +45,11 @@ constexpr Row kRows[] = {
 }  // namespace
 
 std::string long_paths(int size, double height, const Vec3& from, const Vec3& direction, int max_depth) {
-  const auto vector = [](const Vec3& v) { return "[" + digits(v.x) + ", " + digits(v.y) + ", " + digits(v.z) + "]"; };
-  const std::string edge = digits(size);
+  const std::string edge = text(size);
   return R"("lights": [], "ambient": 0, "background": {"bottom": 1, "top": 1}, "image": {"width": )" + edge +
-         R"(, "height": )" + edge + R"(}, "render": {"weight_cutoff": 0, "max_depth": )" + digits(max_depth) +
-         R"(}, "camera": {"type": "orthographic", "height": )" + digits(height) + R"(, "position": )" + vector(from) +
-         R"(, "target": )" + vector(from + direction) + "}, ";
+         R"(, "height": )" + edge + R"(}, "render": {"weight_cutoff": 0, "max_depth": )" + text(max_depth) +
+         R"(}, "camera": {"type": "orthographic", "height": )" + text(height) + R"(, "position": )" + text(from) +
+         R"(, "target": )" + text(from + direction) + "}, ";
 }
 
 double differing_paths(std::string_view json, TilePool& pool) {

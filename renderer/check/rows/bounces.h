@@ -22,15 +22,11 @@ double worst_path(const PathScene& scene, TilePool& pool, Visit visit) {
   std::vector<double> rows(static_cast<size_t>(height), 0.0);
   pool.parallel_for(height, Priority::batch, [&](int64_t y) {
     for (int x = 0; x < width; ++x) {
-      const double value = visit(scene.path(x, static_cast<int>(y)));
-      double& worst = rows[static_cast<size_t>(y)];
-      if (!(value <= worst)) worst = value;  // NaN too
+      note(rows[static_cast<size_t>(y)], visit(scene.path(x, static_cast<int>(y))));
     }
   });
   double worst = 0.0;
-  for (const double value : rows) {
-    if (!(value <= worst)) worst = value;
-  }
+  for (const double value : rows) note(worst, value);
   return worst;
 }
 

@@ -21,11 +21,11 @@ std::string glass_balls(int size, int ray_budget) {
   Random random(2);
   for (int i = 0; i < 20; ++i) {
     objects += (i ? ", " : "") + std::string(R"({"type": "sphere", "material": "glass", "radius": 0.4, "center": [)") +
-               digits(random.between(-1.0, 1.0)) + ", " + digits(random.between(-1.0, 1.0)) + ", " +
-               digits(random.between(-1.0, 1.0)) + "]}";
+               text(random.between(-1.0, 1.0)) + ", " + text(random.between(-1.0, 1.0)) + ", " +
+               text(random.between(-1.0, 1.0)) + "]}";
   }
   std::string view = long_paths(size, 1.5, kFront, kBackward, 50);
-  view.insert(view.find("\"weight_cutoff\""), "\"ray_budget\": " + digits(ray_budget) + ", ");
+  view.insert(view.find("\"weight_cutoff\""), "\"ray_budget\": " + text(ray_budget) + ", ");
   return "{" + view + R"("materials": {"glass": {"ambient": 0, "diffuse": 0, "reflection": 0.5, "transmission": 0.5}},
     "objects": [)" +
          objects + "]}";
@@ -147,7 +147,7 @@ Outcome plates(const Context& context) {
   for (int i = 0; i < kPlates; ++i) {
     const double top = -i * (kPlate + kGap);
     objects += (i ? ", " : "") + std::string(R"({"type": "box", "material": "clear", "min": [-50, -50, )") +
-               digits(top - kPlate) + R"(], "max": [50, 50, )" + digits(top) + "]}";
+               text(top - kPlate) + R"(], "max": [50, 50, )" + text(top) + "]}";
   }
   double bent = 0.0, shifted = 0.0, naive_bent = 0.0;
   for (const double theta : {0.3, 0.9, 1.3}) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "renderer/check/kit/pictures.h"
 #include "renderer/check/kit/rays.h"
 #include "renderer/check/rows/bounces.h"
 
@@ -11,13 +12,13 @@ namespace tilelight::check {
 namespace {
 
 std::string medium(double ior, int priority, double reflection) {
-  return R"("material": {"ambient": 0, "diffuse": 0, "reflection": )" + digits(reflection) + R"(, "transmission": )" +
-         digits(1.0 - reflection) + R"(, "ior": )" + digits(ior) + R"(, "priority": )" + digits(priority) + "}}";
+  return R"("material": {"ambient": 0, "diffuse": 0, "reflection": )" + text(reflection) + R"(, "transmission": )" +
+         text(1.0 - reflection) + R"(, "ior": )" + text(ior) + R"(, "priority": )" + text(priority) + "}}";
 }
 
 std::string ball(const Vec3& center, double radius, const std::string& material) {
-  return R"({"type": "sphere", "center": [)" + digits(center.x) + ", " + digits(center.y) + ", " + digits(center.z) +
-         R"(], "radius": )" + digits(radius) + ", " + material;
+  return R"({"type": "sphere", "center": [)" + text(center.x) + ", " + text(center.y) + ", " + text(center.z) +
+         R"(], "radius": )" + text(radius) + ", " + material;
 }
 
 constexpr int kBalls = 12;

@@ -12,7 +12,7 @@ namespace {
 
 // Two facing mirrors, the eye between them. `more`: members that set the eye's look and the render.
 std::string between_mirrors(const std::string& more, double reflection) {
-  return "{" + more + R"("materials": {"mirror": {"ambient": 1, "diffuse": 0, "reflection": )" + digits(reflection) +
+  return "{" + more + R"("materials": {"mirror": {"ambient": 1, "diffuse": 0, "reflection": )" + text(reflection) +
          R"(}}, "objects": [{"type": "plane", "point": [0, 0, 1], "normal": [0, 0, -1], "material": "mirror"},
                             {"type": "plane", "point": [0, 0, -1], "normal": [0, 0, 1], "material": "mirror"}]})";
 }
@@ -27,7 +27,7 @@ Outcome facing_mirrors(const Context& context) {
     return picture_of(scene_of(between_mirrors(R"("lights": [], "ambient": 0.1, "background": {"bottom": 0, "top": 0},
         "camera": {"position": [0, 0, 0], "target": [0, 0, -1]}, "image": {"width": 2, "height": 2},
         "render": {"weight_cutoff": 0, "max_depth": )" +
-                                                   digits(depth) + "}, ",
+                                                   text(depth) + "}, ",
                                                kr)),
                       context.pool);
   };

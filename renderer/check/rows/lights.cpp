@@ -7,6 +7,7 @@
 #include "renderer/base/elementary.h"
 #include "renderer/check/check.h"
 #include "renderer/check/kit/naive.h"
+#include "renderer/check/kit/pictures.h"
 #include "renderer/check/rows/lights.h"
 
 namespace tilelight::check {
@@ -59,7 +60,7 @@ Outcome floor_under_a_light(const Context& context) {
   for (const double k : {0.0, 1.0, 1e6}) {
     const ParsedScene scene =
         scene_of("{" + view_along_z(size, kHeight, 1) + dark_but(R"({"type": "point", "position": [0, 0, 1]})") +
-                 R"("attenuation": {"k": )" + digits(k) + R"(}, "objects": [
+                 R"("attenuation": {"k": )" + text(k) + R"(}, "objects": [
         {"type": "box", "min": [-100, -100, -1], "max": [100, 100, 0], )" +
                  kDiffuse + "}]}");
     const Picture picture = picture_of(scene, context.pool);
@@ -84,9 +85,8 @@ Outcome strong_and_weak(const Context& context) {
     return picture_of(
         scene_of(
             R"({"camera": {"position": [2, 3, 5]}, )" +
-            image_text(size, size).substr(0, image_text(size, size).size() - 1) + R"(, "exposure": )" +
-            digits(exposure) + "}, " +
-            dark_but(R"({"type": "point", "position": [3, 4, 1], "intensity": )" + digits(intensity) + "}") +
+            image_text(size, size).substr(0, image_text(size, size).size() - 1) + R"(, "exposure": )" + text(exposure) +
+            "}, " + dark_but(R"({"type": "point", "position": [3, 4, 1], "intensity": )" + text(intensity) + "}") +
             R"("objects": [{"type": "sphere", "material": {"specular": 0.5}}, {"type": "plane", "point": [0, -1, 0],
         "material": {"reflection": 0.3}}]})"),
         context.pool);
@@ -119,8 +119,8 @@ Outcome superposition(const Context& context) {
   const int size = context.is_quick ? 32 : 256;
   const auto with = [&](const std::string& lights) {
     return picture_of(scene_of(R"({"camera": {"position": [2, 3, 5]}, "background": {"bottom": 0, "top": 0},
-        "image": {"width": )" + digits(size) +
-                               R"(, "height": )" + digits(size) + R"(}, "lights": [)" + lights + R"(],
+        "image": {"width": )" + text(size) +
+                               R"(, "height": )" + text(size) + R"(}, "lights": [)" + lights + R"(],
         "objects": [{"type": "sphere", "material": {"specular": 0.5}}, {"type": "plane", "point": [0, -1, 0]}]})"),
                       context.pool);
   };
@@ -129,7 +129,7 @@ Outcome superposition(const Context& context) {
   std::string weak, all = strong;
   for (int i = 1; i < 1000; ++i) {
     const std::string light =
-        R"({"type": "point", "intensity": 3e-7, "shadow": false, "position": [)" + digits(3.0 + 1e-3 * i) + ", 4, 1]}";
+        R"({"type": "point", "intensity": 3e-7, "shadow": false, "position": [)" + text(3.0 + 1e-3 * i) + ", 4, 1]}";
     weak += (weak.empty() ? "" : ", ") + light;
     all += ", " + light;
   }
@@ -162,7 +162,7 @@ Outcome phases(const Context& context) {
     const Vec3 to_light(elementary::sin(phi), 0.0, elementary::cos(phi));
     const ParsedScene scene = scene_of("{" + view_along_z(kSize, 2.0, context.is_quick ? 1 : 4) +
                                        dark_but(R"({"type": "directional", "shadow": false, "direction": [)" +
-                                                digits(-to_light.x) + ", 0, " + digits(-to_light.z) + "]}") +
+                                                text(-to_light.x) + ", 0, " + text(-to_light.z) + "]}") +
                                        R"("objects": [{"type": "sphere", "material": {"diffuse": 1, "ambient": 0}}]})");
     const Picture picture = picture_of(scene, context.pool);
     double sum = 0.0;
@@ -183,18 +183,16 @@ Outcome from_infinity(const Context& context) {
   const Vec3 to_light = glm::normalize(Vec3(1.0, 2.0, 1.5));
   constexpr double kFar = 4e6;
   const auto with = [&](const std::string& light) {
-    return picture_of(
-        scene_of(R"({"camera": {"position": [2, 3, 5]}, "attenuation": {"k": 0}, "image": {"width": )" + digits(size) +
-                 R"(, "height": )" + digits(size) + "}, " + dark_but(light) + R"("objects": [
+    return picture_of(scene_of(R"({"camera": {"position": [2, 3, 5]}, "attenuation": {"k": 0}, "image": {"width": )" +
+                               text(size) + R"(, "height": )" + text(size) + "}, " + dark_but(light) + R"("objects": [
           {"type": "sphere", "material": {"diffuse": 0.8, "ambient": 0, "specular": 0.2, "shininess": 20}},
           {"type": "box", "min": [-2, -1.5, -2], "max": [2, -1, 2], )" +
-                 kDiffuse + "}]}"),
-        context.pool);
+                               kDiffuse + "}]}"),
+                      context.pool);
   };
-  const auto vector = [](const Vec3& v) { return "[" + digits(v.x) + ", " + digits(v.y) + ", " + digits(v.z) + "]"; };
   const Picture far =
-      with(R"({"type": "point", "position": )" + vector(kFar * to_light) + R"(, "intensity": )" + digits(kFar) + "}");
-  const Picture infinite = with(R"({"type": "directional", "direction": )" + vector(-to_light) + "}");
+      with(R"({"type": "point", "position": )" + text(kFar * to_light) + R"(, "intensity": )" + text(kFar) + "}");
+  const Picture infinite = with(R"({"type": "directional", "direction": )" + text(-to_light) + "}");
   double worst = 0.0, naive_worst = 0.0;
   for (size_t i = 0; i < far.linear.size(); ++i) note(worst, std::abs(double{far.linear[i]} - infinite.linear[i]));
   // The box from above, by the formula of a point light whose place is at infinity.

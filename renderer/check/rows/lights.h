@@ -20,9 +20,9 @@ inline std::string dark_but(const std::string& lights) {
 
 // A square orthographic view along -z from z = 5, x to the right and y up; `height` from edge to edge.
 inline std::string view_along_z(int size, double height, int samples) {
-  return R"("camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": )" +
-         digits(height) + R"(}, "image": {"width": )" + digits(size) + R"(, "height": )" + digits(size) +
-         R"(}, "render": {"samples": )" + digits(samples) + "}, ";
+  return R"("camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": )" + text(height) +
+         R"(}, "image": {"width": )" + text(size) + R"(, "height": )" + text(size) + R"(}, "render": {"samples": )" +
+         text(samples) + "}, ";
 }
 
 // visit(pixel, across, down): where sample 0 of each pixel lies on the plane of such a view, from its middle.

@@ -5,6 +5,7 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/check/kit/naive.h"
+#include "renderer/check/kit/pictures.h"
 #include "renderer/check/rows/lights.h"
 #include "renderer/shade/light_equation.h"
 
@@ -19,7 +20,7 @@ Picture headlight(const Context& context, double shininess, int size, double win
                              dark_but(R"({"type": "directional", "direction": [0, 0, -1]})") +
                              R"("objects": [{"type": "sphere", "material": {"ambient": 0, "diffuse": 0, "specular": 1,
                                "shininess": )" +
-                             digits(shininess) + "}}]}"),
+                             text(shininess) + "}}]}"),
                     context.pool);
 }
 

@@ -19,7 +19,7 @@ Outcome many_decades(const Context& context) {
   for (int i = 0; i < kLights; ++i) {
     const auto light = [&](int of) {
       return (i ? ", " : "") + std::string(R"({"type": "directional", "direction": [0, 0, -1], "intensity": )") +
-             digits(intensity(of)) + "}";
+             text(intensity(of)) + "}";
     };
     rising += light(i), falling += light(kLights - 1 - i);
     naive_rising += static_cast<float>(intensity(i)), naive_falling += static_cast<float>(intensity(kLights - 1 - i));
@@ -47,8 +47,8 @@ Outcome inverse_square(const Context& context) {
         scene_of(R"({"camera": {"type": "orthographic", "height": 1e-20, "up": [0, 0, -1], "position": [0.5, 5, 0.5],
           "target": [0.5, 0, 0.5]}, "image": {"width": 4, "height": 4},
           "attenuation": {"mode": "inverse_square", "k": 0}, )" +
-                 dark_but(R"({"type": "point", "position": [0.5, )" + digits(d) + R"(, 0.5], "intensity": )" +
-                          digits(d * d) + "}") +
+                 dark_but(R"({"type": "point", "position": [0.5, )" + text(d) + R"(, 0.5], "intensity": )" +
+                          text(d * d) + "}") +
                  R"("objects": [{"type": "plane", "material": {"diffuse": 0.8, "ambient": 0}}]})"),
         context.pool);
     note(worst, relative(picture.linear[0], 0.8));

@@ -7,6 +7,7 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/check/kit/meshes.h"
+#include "renderer/check/kit/pictures.h"
 #include "renderer/check/rows/triangles.h"
 #include "renderer/trace/intersect.h"
 
