@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -40,15 +41,22 @@ struct WideBvh {
     uint32_t first = 0, count = 0;  // a range of `order`
   };
   static constexpr float kWiden = 0x1p-19f;
+  static constexpr float kNowhere = 1e30f;
 
-  std::vector<Node> nodes;      // [0] is the root; empty if there are no boxes
+  std::vector<Node> nodes;  // [0] is the root; empty if there are no boxes
   std::vector<Leaf> leaves;
   std::vector<uint32_t> order;  // a permutation of the boxes
-  Box bounds;
   int depth = 0;
 };
 
+// The boxes of a tree, by index. box_of is called once for each, by any thread of the pool.
+struct BoxSource {
+  uint32_t count = 0;
+  std::function<Box(uint32_t)> box_of;
+  uint32_t alone_from = ~uint32_t{0};  // boxes from here on have a leaf each
+};
+
 // max_leaf: boxes a leaf may hold, 1..8. Uses idle threads of the pool for large inputs.
-WideBvh build_bvh(const std::vector<Box>& boxes, int max_leaf, TilePool& pool);
+WideBvh build_bvh(const BoxSource& boxes, int max_leaf, TilePool& pool);
 
 }  // namespace tilelight

@@ -24,6 +24,20 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// One convex body, seen from outside: where a light shines on it nothing of it stands between, and what it mirrors is
+// not itself.
+bool is_convex_seen_from_outside(const CompiledScene& scene, const ViewPlan& plan) {
+  if (scene.bodies.size() != 1 || scene.materials[scene.bodies[0].material].is_transmissive) return false;
+  const CompiledBody& body = scene.bodies[0];
+  if (body.kind == BodyKind::plane) return true;
+  if (plan.eye.projection == Projection::orthographic) return false;  // its rays start in many places
+  const Vec3 eye = glm::abs(transform_point(body.local_from_world, plan.eye.origin));
+  constexpr double kClearly = 1.0 + 0x1p-20;
+  if (body.kind == BodyKind::sphere) return glm::dot(eye, eye) > kClearly;
+  const Vec3 half = kClearly * body.half;
+  return body.kind == BodyKind::box && (eye.x > half.x || eye.y > half.y || eye.z > half.z);
+}
+
 void rebase_lights(CompiledScene& scene) {
   for (CompiledLight& light : scene.lights) light.position = (light.position - scene.center) / scene.units;
 }
@@ -42,19 +56,18 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   std::vector<Body> bodies = make_bodies(scene);
   out->materials = drop_unused_materials(scene, bodies, left_out);
   out->lights = drop_dead_lights(scene, out->materials, left_out);
-  rebase_and_normalise(bodies, pool, *out);
+  rebase_and_normalise(bodies, *out);
   rebase_lights(*out);
   for (uint32_t i = 0; i < out->bodies.size(); ++i) out->media += is_medium(*out, i);
   out->radiance_bound = find_radiance_bound(*out);
   out->plan.features = find_features(*out, left_out);
-  out->tree = build_scene_tree(*out, pool);
+  build_trees(pool, *out);
 
   Plan& plan = out->plan;
   plan.left_out.insert(plan.left_out.end(), left_out.begin(), left_out.end());
   plan.warnings = find_open_glass(bodies, *out);
   plan.lights = static_cast<int64_t>(out->lights.size());
-  plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody) +
-                                            out->tree.nodes.size() * sizeof(WideBvh::Node));
+  plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody));
   plan.compile_ms = watch.ms();
   return out;
 }
@@ -104,6 +117,8 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
     leave_out(Feature::shadows, "the view asks for none");
     leave_out(Feature::tinted_shadows, "the view asks for no shadows");
   }
+  if (is_convex_seen_from_outside(scene, out))
+    leave_out(Feature::shadows, "a single convex body, seen from outside, hides nothing of itself from a light");
   if (view.render.max_depth == 0) {
     leave_out(Feature::reflection, "max_depth is 0: local light only");
     // Of two media that overlap, one hides surfaces of the other, at any depth.

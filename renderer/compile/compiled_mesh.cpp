@@ -2,7 +2,6 @@
 #include "renderer/compile/compiled_mesh.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "renderer/compile/normalise.h"
@@ -32,24 +31,9 @@ void share_normals(const TriMesh& mesh, CompiledMesh& out) {
   }
 }
 
-TriangleBlock make_block(const CompiledMesh& mesh, const WideBvh::Leaf& leaf) {
-  TriangleBlock block;
-  std::fill_n(&block.vertex[0][0][0], 3 * 3 * 8, std::numeric_limits<float>::quiet_NaN());
-  std::fill_n(block.id, 8, ~uint32_t{0});
-  for (uint32_t lane = 0; lane < leaf.count; ++lane) {
-    const uint32_t id = mesh.bvh.order[leaf.first + lane];
-    block.id[lane] = id;
-    for (int v = 0; v < 3; ++v) {
-      const Vec3& p = mesh.positions[mesh.triangles[id][v]];
-      for (int axis = 0; axis < 3; ++axis) block.vertex[v][axis][lane] = static_cast<float>(p[axis]);
-    }
-  }
-  return block;
-}
-
 }  // namespace
 
-std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh, TilePool& pool) {
+std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh) {
   auto out = std::make_shared<CompiledMesh>();
   Box bounds;
   for (const Vec3& p : mesh.positions) bounds.grow(p);
@@ -61,20 +45,12 @@ std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh, TilePool& 
   for (const Vec3& p : mesh.positions) out->positions.push_back((p - n.center) / n.units);
   if (!mesh.corner_normals.empty()) share_normals(mesh, *out);
 
-  std::vector<Box> boxes(mesh.triangles.size());
-  for (size_t t = 0; t < boxes.size(); ++t) {
-    for (const uint32_t v : mesh.triangles[t]) boxes[t].grow(out->positions[v]);
-  }
-  out->bvh = build_bvh(boxes, 8, pool);
-  out->blocks.reserve(out->bvh.leaves.size());
-  for (const WideBvh::Leaf& leaf : out->bvh.leaves) out->blocks.push_back(make_block(*out, leaf));
+  for (const Vec3& p : out->positions) out->octants[(p.x < 0.0) + 2 * (p.y < 0.0) + 4 * (p.z < 0.0)].grow(p);
   return out;
 }
 
 int64_t CompiledMesh::memory_bytes() const {
-  return static_cast<int64_t>(bvh.nodes.size() * sizeof(WideBvh::Node) + bvh.leaves.size() * sizeof(WideBvh::Leaf) +
-                              bvh.order.size() * sizeof(uint32_t) + blocks.size() * sizeof(TriangleBlock) +
-                              (positions.size() + normals.size()) * sizeof(Vec3) +
+  return static_cast<int64_t>((positions.size() + normals.size()) * sizeof(Vec3) +
                               (triangles.size() + corner_normals.size()) * sizeof(triangles[0]));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compile_mesh: TriMesh -> CompiledMesh: normalised, indexed, with its tree. Pure; shared by all instances.
+// compile_mesh: TriMesh -> CompiledMesh: normalised, indexed. Pure; shared by all instances.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,6 @@
 
 namespace tilelight {
 
-std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh, TilePool& pool);
+std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh);
 
 }  // namespace tilelight

@@ -10,28 +10,20 @@
 #include <vector>
 
 #include "renderer/compile/bodies.h"
-#include "renderer/compile/bvh.h"
 #include "renderer/compile/plan.h"
+#include "renderer/compile/triangle_tree.h"
 
 namespace tilelight {
 
-// Eight triangles of a leaf in struct-of-arrays form, for the float filter: vertex, axis, triangle. Unused places are
-// NaN, which no comparison lets through.
-struct alignas(64) TriangleBlock {
-  float vertex[3][3][8];
-  uint32_t id[8];
-};
-
 struct CompiledMesh {
-  WideBvh bvh;
-  std::vector<TriangleBlock> blocks;  // one a leaf of the tree
   // The exact triangles, local normalised space.
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<Vec3> normals;                            // shared corner normals, unit
   std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
   bool closed = false;
-  Mat4 mesh_from_local{1.0};  // undoes the normalisation
+  Mat4 mesh_from_local{1.0};     // undoes the normalisation
+  std::array<Box, 8> octants{};  // around the positions in each octant; together they fit closely
 
   int64_t memory_bytes() const;
 };
@@ -42,6 +34,7 @@ struct CompiledBody {
   MaterialId material = 0;  // into CompiledScene::materials
   uint32_t body = 0;        // index into make_bodies' list: the public id
   const CompiledMesh* mesh = nullptr;
+  const TriangleTree* tree = nullptr;  // of the mesh, in local space; null: its triangles are in the scene's tree
   Vec3 half{1.0};
   Vec3 rounding{0.0};  // of a box's faces, see Body; local units
   Mat4 local_from_world{1.0};
@@ -70,8 +63,9 @@ struct CompiledMaterial {
 struct CompiledScene {
   std::vector<CompiledBody> bodies;  // finite ones first; `tree` is over them
   size_t finite_bodies = 0;          // bodies[finite_bodies..] are planes
-  WideBvh tree;                      // over bodies[0..finite_bodies), one a leaf
+  TriangleTree tree;                 // over bodies[0..finite_bodies)
   std::vector<std::shared_ptr<const CompiledMesh>> meshes;
+  std::vector<std::shared_ptr<const TriangleTree>> mesh_trees;
   std::vector<CompiledMaterial> materials;
   size_t media = 0;  // bodies that are solid and transparent
   std::vector<CompiledLight> lights;

@@ -21,7 +21,7 @@ std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vecto
 
 // Compiles every mesh once, sets all bodies in the scene's normalised space, planes last, and measures the bounds.
 // Fills bodies, finite_bodies, meshes, center, units, bounding sphere and the plan's bounds and counts.
-void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, CompiledScene& out);
+void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out);
 
 // What the kernel has to do for this scene, and the reasons for what it need not do.
 FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out);
@@ -29,8 +29,8 @@ FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out);
 // Glass without an inside: open meshes whose material transmits. One warning a body.
 std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const CompiledScene& scene);
 
-// The tree over the finite bodies.
-WideBvh build_scene_tree(const CompiledScene& scene, TilePool& pool);
+// The scene's tree over the finite bodies, and the trees of meshes that keep one of their own.
+void build_trees(TilePool& pool, CompiledScene& out);
 
 // An upper bound of the light any ray brings, every channel: B of the truncation bound w * B. Negative if none is
 // finite.

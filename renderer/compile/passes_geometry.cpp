@@ -22,18 +22,11 @@ void visit_hull(const CompiledBody& body, const Mat4& to, Visit visit) {
   };
   if (body.kind == BodyKind::box) {
     visit_box(-body.half, body.half);
-  } else if (body.mesh->bvh.nodes.empty()) {
+  } else if (body.mesh->positions.empty()) {
     visit(transform_point(to, Vec3(0.0)));
   } else {
-    // The root's eight boxes fit more closely than the one around them.
-    const WideBvh::Node& root = body.mesh->bvh.nodes[0];
-    for (int c = 0; c < WideBvh::kWidth; ++c) {
-      if (root.child[c] == WideBvh::kEmpty) continue;
-      const auto corner = [&](int side) {
-        const double inward = side == 0 ? WideBvh::kWiden : -WideBvh::kWiden;
-        return Vec3(root.bounds[side][0][c], root.bounds[side][1][c], root.bounds[side][2][c]) + inward;
-      };
-      visit_box(corner(0), corner(1));
+    for (const Box& octant : body.mesh->octants) {
+      if (!octant.is_empty()) visit_box(octant.lo, octant.hi);
     }
   }
 }
@@ -135,11 +128,11 @@ bool encloses(const Body& body) {
 
 Box body_bounds(const CompiledBody& body) { return bounds_in(body, body.world_from_local); }
 
-void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, CompiledScene& out) {
+void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
   std::map<const TriMesh*, std::shared_ptr<const CompiledMesh>> compiled;
   for (const Body& body : bodies) {
     if (body.mesh && !compiled.contains(body.mesh.get())) {
-      const auto& mesh = compiled[body.mesh.get()] = compile_mesh(*body.mesh, pool);
+      const auto& mesh = compiled[body.mesh.get()] = compile_mesh(*body.mesh);
       out.meshes.push_back(mesh);
       out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
       out.plan.memory_bytes += mesh->memory_bytes();
@@ -204,11 +197,22 @@ void rebase_and_normalise(const std::vector<Body>& bodies, TilePool& pool, Compi
   out.plan.bounds_max = bounds.hi;
 }
 
-WideBvh build_scene_tree(const CompiledScene& scene, TilePool& pool) {
-  std::vector<Box> boxes;
-  boxes.reserve(scene.finite_bodies);
-  for (size_t i = 0; i < scene.finite_bodies; ++i) boxes.push_back(body_bounds(scene.bodies[i]));
-  return build_bvh(boxes, 1, pool);
+void build_trees(TilePool& pool, CompiledScene& out) {
+  const std::vector<bool> merged = find_merged(out);
+  std::map<const CompiledMesh*, const TriangleTree*> own;
+  for (size_t i = 0; i < out.bodies.size(); ++i) {
+    CompiledBody& body = out.bodies[i];
+    if (body.kind != BodyKind::mesh || merged[i]) continue;
+    const TriangleTree*& tree = own[body.mesh];
+    if (!tree) {
+      out.mesh_trees.push_back(std::make_shared<const TriangleTree>(build_mesh_tree(*body.mesh, pool)));
+      tree = out.mesh_trees.back().get();
+      out.plan.memory_bytes += tree->memory_bytes();
+    }
+    body.tree = tree;
+  }
+  out.tree = build_scene_tree(out, pool);
+  out.plan.memory_bytes += out.tree.memory_bytes();
 }
 
 }  // namespace tilelight

@@ -16,6 +16,18 @@ struct TileRect {
   int64_t pixel_count() const { return static_cast<int64_t>(width()) * height(); }
 };
 
+// visit(x, y) for every pixel, in squares of 4 by 4: neighbours in this order are neighbours in the image.
+template <class Visit>
+void for_each_in_squares(const TileRect& rect, const Visit& visit) {
+  constexpr int kSquarePx = 4;
+  for (int top = rect.y0; top < rect.y1; top += kSquarePx) {
+    for (int left = rect.x0; left < rect.x1; left += kSquarePx) {
+      for (int y = top; y < std::min(top + kSquarePx, rect.y1); ++y)
+        for (int x = left; x < std::min(left + kSquarePx, rect.x1); ++x) visit(x, y);
+    }
+  }
+}
+
 // The rectangles of a grid of tiles with edge tile_px over the image, row by row. Pure.
 int tile_count(int width, int height, int tile_px);
 TileRect tile_rect(int index, int width, int height, int tile_px);

@@ -26,10 +26,13 @@ struct Start {
   double noise = 0.0;  // across a surface, normalised units; 0 for a ray from the eye
   double reach = 0.0;  // along the ray
 };
+// size: |x| + |y| + |z| of the start.
+inline double noise_at(double size) { return 0x1p-44 * (1.0 + size); }
+inline double reach_at(double size) { return 0x1p20 * noise_at(size); }
 inline Start start_of(const Ray& ray) {
   if (ray.left.body == kNone) return {};
-  const double noise = 0x1p-44 * (1.0 + std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z));
-  return {noise, 0x1p20 * noise};
+  const double size = std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z);
+  return {noise_at(size), reach_at(size)};
 }
 
 // |cosine| between a world direction and the body's geometric normal at a hit at t.
@@ -151,9 +154,9 @@ struct Shear {
   int kx = 0, ky = 1, kz = 2;
   double sx = 0.0, sy = 0.0, sz = 1.0;
 
+  static int axis_of(double x, double y, double z) { return x >= y && x >= z ? 0 : y >= z ? 1 : 2; }
   explicit Shear(const Vec3& d) {
-    const Vec3 a = glm::abs(d);
-    kz = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    kz = axis_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
     kx = (kz + 1) % 3, ky = (kz + 2) % 3;
     sz = 1.0 / d[kz];
     sx = d[kx] * sz, sy = d[ky] * sz;

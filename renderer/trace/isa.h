@@ -16,8 +16,8 @@ std::vector<std::string> available_isas();
 // The set in use.
 std::string current_isa();
 
-// Restricts dispatch to the named set (not case-sensitive); "auto" lifts it. For the whole process, for tests and the command
-// line; not while renders run. Errors: unknown_name, not_available.
+// Restricts dispatch to the named set (not case-sensitive); "auto" lifts it. For the whole process, for tests and the
+// command line; not while renders run. Errors: unknown_name, not_available.
 Result<void> select_isa(std::string_view name);
 
 }  // namespace tilelight

@@ -4,6 +4,8 @@
 
 namespace tilelight {
 
-void run_glass_shadows(const TileJob& job) { TileKernel<Abilities{.mirrors = true, .glass = true, .shadows = true}>(job).run(); }
+void run_glass_shadows(const TileJob& job) {
+  TileKernel<Abilities{.mirrors = true, .glass = true, .shadows = true}>(job).run();
+}
 
 }  // namespace tilelight

@@ -38,6 +38,7 @@ class TileKernel {
         plan_(*job.plan),
         spec_(job.plan->view.render),
         counts_(*job.counts),
+        beams_(job.scene->lights.size()),
         media_(*job.scene) {}
 
   void run() {
@@ -71,6 +72,11 @@ class TileKernel {
   struct Pending {
     Color light;
     uint32_t sample;
+  };
+  // The shadow rays to one light: neighbours among them go nearly the same way.
+  struct Beam {
+    std::vector<BoundedRay> rays;
+    std::vector<uint32_t> pending;  // whose each ray is
   };
 
   bool is_cancelled() const { return job_.cancelled && job_.cancelled->load(std::memory_order_relaxed); }
@@ -112,7 +118,7 @@ class TileKernel {
     // Lit by many lights, a part is lit in pieces: cut between samples, and inside a sample by its own count alone, so
     // that the order of its sum depends on nothing else.
     constexpr size_t kShadowRays = 4096;
-    size_t sample_start = 0;  // in shadow_rays_, of the sample in work
+    size_t sample_start = 0;  // in pending_, of the sample in work
     const std::span<BoundedRay> rays = std::span(level.rays).subspan(first, last - first);
     hits_.resize(rays.size());
     trace_closest(scene_, rays, hits_);
@@ -120,11 +126,11 @@ class TileKernel {
     for (size_t i = 0; i < rays.size(); ++i) {
       Path& path = level.paths[first + i];
       const bool is_new = i == 0 || path.sample != level.paths[first + i - 1].sample;
-      if (shadow_rays_.size() - (is_new ? 0 : sample_start) >= kShadowRays) {
+      if (pending_.size() - (is_new ? 0 : sample_start) >= kShadowRays) {
         add_lights();
         sample_start = 0;
       }
-      if (is_new) sample_start = shadow_rays_.size();
+      if (is_new) sample_start = pending_.size();
       if constexpr (kCan.glass) pass_unseen(rays[i], path, hits_[i]);
       shade(rays[i].ray, path, hits_[i]);
     }
@@ -134,10 +140,21 @@ class TileKernel {
   // Adds what the lights bring to the hits shaded so far, where nothing stands between.
   void add_lights() {
     if constexpr (kCan.shadows) {
-      find_visible(shadow_rays_);
+      visible_.assign(pending_.size(), Color(1.0));
+      for (Beam& beam : beams_) follow_beam(beam);
       for (size_t i = 0; i < pending_.size(); ++i) radiance_[pending_[i].sample] += pending_[i].light * visible_[i];
-      shadow_rays_.clear();
       pending_.clear();
+    }
+  }
+
+  // visit(x, y) in the order of a batch: neighbours are walked as packets, but an explanation goes row by row.
+  template <class Visit>
+  void for_each_pixel(int y0, int y1, const Visit& visit) const {
+    if constexpr (kCan.listens) {
+      for (int y = y0; y < y1; ++y)
+        for (int x = job_.rect.x0; x < job_.rect.x1; ++x) visit(x, y);
+    } else {
+      for_each_in_squares({job_.rect.x0, y0, job_.rect.x1, y1}, visit);
     }
   }
 
@@ -148,13 +165,11 @@ class TileKernel {
     enter_eye_media({job_.rect.x0, y0, job_.rect.x1, y1});
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
-    for (int y = y0; y < y1; ++y) {
-      for (int x = job_.rect.x0; x < job_.rect.x1; ++x, ++sample) {
-        const SamplePoint p = sample_point(x, y, spec_.seed, index);
-        const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
-        primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample, media_at(ray.origin), 0, "primary"});
-      }
-    }
+    for_each_pixel(y0, y1, [&](int x, int y) {
+      const SamplePoint p = sample_point(x, y, spec_.seed, index);
+      const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
+      primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
+    });
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
     spent_.assign(sample, 0);
@@ -195,7 +210,8 @@ class TileKernel {
   void light(const Ray& ray, const Path& path, const Surface& surface, const Hit& hit) {
     const bool is_rounded = surface.is_rounded && spec_.terminator == Terminator::smooth;
     const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
-    for (const CompiledLight& source : scene_.lights) {
+    for (size_t i = 0; i < scene_.lights.size(); ++i) {
+      const CompiledLight& source = scene_.lights[i];
       const LightSample sample = sample_light(scene_, source, surface, -ray.direction, is_rounded);
       counts_.lights_on_hits += sample.distance == 0.0;
       Color seen(0.0);
@@ -206,9 +222,10 @@ class TileKernel {
         if (!(kCan.shadows && source.shadow && spec_.shadows)) {
           radiance_[path.sample] += arriving;
         } else if (arriving != Color(0.0)) {
-          shadow_rays_.push_back(shadow);
+          beams_[i].rays.push_back(shadow);
+          beams_[i].pending.push_back(static_cast<uint32_t>(pending_.size()));
           pending_.push_back({arriving, path.sample});
-          if constexpr (kCan.listens) seen = visible_now(shadow);
+          if constexpr (kCan.listens) seen = visible_along(shadow);
         }
       }
       if constexpr (kCan.listens) job_.listener->on_light(source, sample, seen);
@@ -229,42 +246,55 @@ class TileKernel {
     return {{start, to_light, surface.here, Coincident::before}, distance * (1.0 - 0x1p-40)};
   }
 
-  // visible_[i], by channel: 0 behind something opaque, else the product of kt of the transparent surfaces that
-  // rays[i] crosses, unrefracted.
-  void find_visible(const std::vector<BoundedRay>& rays) {
-    counts_.shadow += static_cast<int64_t>(rays.size());
-    visible_.assign(rays.size(), Color(1.0));
+  // Sets visible_ of what the beam decides, by channel: 0 behind something opaque, else the product of kt of the
+  // transparent surfaces that the ray crosses, unrefracted. Empties the beam.
+  void follow_beam(Beam& beam) {
+    counts_.shadow += static_cast<int64_t>(beam.rays.size());
     if constexpr (kCan.glass) {
-      for (size_t i = 0; i < rays.size(); ++i) follow_shadow(rays[i], visible_[i]);
+      while (!beam.rays.empty() && !is_cancelled()) {
+        beam_hits_.resize(beam.rays.size());
+        trace_closest(scene_, beam.rays, beam_hits_);
+        size_t kept = 0;
+        for (size_t i = 0; i < beam.rays.size(); ++i) {
+          if (!goes_on(beam.rays[i], beam_hits_[i], visible_[beam.pending[i]])) continue;
+          beam.rays[kept] = beam.rays[i];
+          beam.pending[kept++] = beam.pending[i];
+        }
+        beam.rays.resize(kept);
+        beam.pending.resize(kept);
+        counts_.shadow += static_cast<int64_t>(kept);
+      }
     } else {
-      is_blocked_.resize(rays.size());
-      trace_any(scene_, rays, is_blocked_);
-      for (size_t i = 0; i < rays.size(); ++i) {
-        if (is_blocked_[i]) visible_[i] = Color(0.0);
+      is_blocked_.resize(beam.rays.size());
+      trace_any(scene_, beam.rays, is_blocked_);
+      for (size_t i = 0; i < beam.rays.size(); ++i) {
+        if (is_blocked_[i]) visible_[beam.pending[i]] = Color(0.0);
       }
     }
+    beam.rays.clear();
+    beam.pending.clear();
   }
 
-  void follow_shadow(BoundedRay shadow, Color& visible) {
+  // Takes a shadow ray across the surface that it has met; false: no light is left, or nothing is met.
+  bool goes_on(BoundedRay& shadow, const Hit& hit, Color& visible) const {
+    if (!hit.is_hit()) return false;
+    visible *= scene_.materials[scene_.bodies[hit.body].material].source.transmission;  // 0 for what is opaque
+    if (visible == Color(0.0)) return false;
+    // A surface in the very place of the start was crossed on the way back; others there have been dealt with.
+    const bool was_coincident = hit.t <= start_of(shadow.ray).noise && shadow.ray.coincident == Coincident::before;
+    shadow.ray.origin += hit.t * shadow.ray.direction;
+    shadow.ray.left = {hit.body, hit.prim};
+    shadow.ray.coincident = was_coincident ? Coincident::none : Coincident::after;
+    shadow.t_max -= hit.t;
+    return true;
+  }
+
+  Color visible_along(BoundedRay shadow) const {
+    Color visible(1.0);
     Hit hit;
-    while (!is_cancelled()) {
-      trace_closest(scene_, {&shadow, 1}, {&hit, 1});
-      if (!hit.is_hit()) return;
-      visible *= scene_.materials[scene_.bodies[hit.body].material].source.transmission;  // 0 for what is opaque
-      if (visible == Color(0.0)) return;
-      // A surface in the very place of the start was crossed on the way back; others there have been dealt with.
-      const bool was_coincident = hit.t <= start_of(shadow.ray).noise && shadow.ray.coincident == Coincident::before;
-      shadow.ray.origin += hit.t * shadow.ray.direction;
-      shadow.ray.left = {hit.body, hit.prim};
-      shadow.ray.coincident = was_coincident ? Coincident::none : Coincident::after;
-      shadow.t_max -= hit.t;
-      ++counts_.shadow;
-    }
-  }
-
-  Color visible_now(const BoundedRay& shadow) {
-    find_visible({shadow});
-    return visible_[0];
+    do trace_closest(scene_, {&shadow, 1}, {&hit, 1});
+    while (goes_on(shadow, hit, visible) && !is_cancelled());
+    return visible;
   }
 
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
@@ -327,19 +357,17 @@ class TileKernel {
 
   void finish_batch(int y0, int y1) {
     size_t sample = 0;
-    for (int y = y0; y < y1; ++y) {
-      for (int x = job_.rect.x0; x < job_.rect.x1; ++x, ++sample) {
-        const Color& c = radiance_[sample];
-        // More than this no sum of samples in float can hold.
-        constexpr double kMost = 1e34;
-        const bool is_finite = std::abs(c.r) < kMost && std::abs(c.g) < kMost && std::abs(c.b) < kMost;
-        counts_.nonfinite += !is_finite;
-        counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[sample]);
-        if (!job_.film) continue;
-        job_.film->add(x, y, is_finite ? static_cast<float>(c.r) : 0.0f, is_finite ? static_cast<float>(c.g) : 0.0f,
-                       is_finite ? static_cast<float>(c.b) : 0.0f);
-      }
-    }
+    for_each_pixel(y0, y1, [&](int x, int y) {
+      const Color& c = radiance_[sample];
+      // More than this no sum of samples in float can hold.
+      constexpr double kMost = 1e34;
+      const bool is_finite = std::abs(c.r) < kMost && std::abs(c.g) < kMost && std::abs(c.b) < kMost;
+      counts_.nonfinite += !is_finite;
+      counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[sample++]);
+      if (!job_.film) return;
+      job_.film->add(x, y, is_finite ? static_cast<float>(c.r) : 0.0f, is_finite ? static_cast<float>(c.g) : 0.0f,
+                     is_finite ? static_cast<float>(c.b) : 0.0f);
+    });
   }
 
   const TileJob& job_;
@@ -350,10 +378,11 @@ class TileKernel {
   std::deque<Level> levels_;  // by depth; a deque, so that a level stays where it is while deeper ones come
   Level* next_ = nullptr;     // takes the rays that the part in work sends out
   std::vector<Hit> hits_;
-  std::vector<BoundedRay> shadow_rays_;
+  std::vector<Beam> beams_;       // by light
   std::vector<Pending> pending_;  // what each shadow ray decides
   std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
+  std::vector<Hit> beam_hits_;
   MediaSets media_;
   MediaSets::Set eye_media_ = MediaSets::kOpenAir;
   MediaList some_media_;         // hold the starts of some rays of the batch

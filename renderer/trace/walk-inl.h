@@ -25,19 +25,28 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::CappedTag<float, 8>;
 
-// A ray as the filters see it: float, in a normalised space, its origin moved along the ray to within a few units of
-// that space's centre, so that its rounding is about 2^-23 however far the eye is.
+// A ray as the filters see it: float, in the world or in a mesh's normalised space, its origin moved along the ray to
+// within a few units of that space's centre, so that its rounding is about 2^-23 however far the eye is.
 struct FilterRay {
   float origin[3], direction[3], inverse[3];
-  int near_side[3];    // 0: enters by the lower plane
-  float t_min, t_max;  // in units of the space, from the moved origin
-  double shift;        // the moved origin lies at this t
-  double length;       // of a unit of t in the space
-  Vec3 moved;          // the moved origin, exact
+  float near_origin[3], far_origin[3];  // origin, moved by its own uncertainty so that no box that is met is missed
+  float slack;                          // points in a plane sheared by slopes up to 1 are off by less
+  int near_side[3];                     // 0: enters by the lower plane
+  float t_min, t_max;                   // in units of the space, from the moved origin
+  double shift;                         // the moved origin lies at this t
+  double length;                        // of a unit of t in the space
+  Vec3 moved;                           // the moved origin, exact
 };
 
 // Distances in the filter are widened by this before they discard anything: more than their rounding.
 inline constexpr float kFilterSlack = 0x1p-18f;
+// Points in a plane sheared by slopes up to 1 are off by less than this: 29 roundings of 2^-25 (of origin, direction,
+// vertex, shear and their products) come to 2^-20.1. What is discarded and what is accepted both rest on it.
+inline constexpr float kSheared = 0x1p-19f;
+// Inside two units of the centre the origin may stay.
+inline constexpr double kNearOrigin2 = 4.0;
+// A slope of 0 would make 0 * inf; the widened boxes allow for one this small.
+inline constexpr float kTinySlope = 0x1p-60f;
 
 HWY_INLINE float filter_t_max(double t, double shift, double length) {
   const double local = (t - shift) * length;
@@ -45,27 +54,40 @@ HWY_INLINE float filter_t_max(double t, double shift, double length) {
   return static_cast<float>(local) + kFilterSlack * (1.0f + std::abs(static_cast<float>(local)));
 }
 
-HWY_INLINE FilterRay make_filter_ray(const LocalRay& ray, double t_min, double t_max) {
-  FilterRay f;
+// The origin moved along the ray by `shift` (of t) to near the centre.
+HWY_INLINE Vec3 moved_origin(const LocalRay& ray, double& shift) {
   const double d2 = glm::dot(ray.direction, ray.direction);
-  f.length = std::sqrt(d2);
-  constexpr double kNear2 = 4.0;  // inside two units of the centre the origin may stay
-  f.shift = glm::dot(ray.origin, ray.origin) > kNear2 ? -glm::dot(ray.origin, ray.direction) / d2 : 0.0;
-  f.moved = ray.origin + f.shift * ray.direction;
-  if (glm::dot(f.moved, f.moved) > kNear2) {  // so far away that the shift itself was rounded by units: once more
-    const double rest = -glm::dot(f.moved, ray.direction) / d2;
-    f.shift += rest;
-    f.moved += rest * ray.direction;
+  shift = glm::dot(ray.origin, ray.origin) > kNearOrigin2 ? -glm::dot(ray.origin, ray.direction) / d2 : 0.0;
+  Vec3 moved = ray.origin + shift * ray.direction;
+  if (glm::dot(moved, moved) > kNearOrigin2) {  // so far away that the shift itself was rounded by units: once more
+    const double rest = -glm::dot(moved, ray.direction) / d2;
+    shift += rest;
+    moved += rest * ray.direction;
   }
+  return moved;
+}
+
+// How far a ray's line in the world may lie from the same line in some body's space, where what is found is decided:
+// roundings of the origin in double, times how uneven a merged body's placement may be (find_merged).
+HWY_INLINE double strayed(const Vec3& origin) {
+  constexpr double kEverywhere = 1e3;
+  return std::min(0x1p-40 * std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}), kEverywhere);
+}
+
+HWY_INLINE FilterRay make_filter_ray(const LocalRay& ray, double off, double t_min, double t_max) {
+  FilterRay f;
+  f.slack = kSheared + 2.0f * static_cast<float>(off);
+  f.length = std::sqrt(glm::dot(ray.direction, ray.direction));
+  f.moved = moved_origin(ray, f.shift);
   const double scale = 1.0 / f.length;
   for (int axis = 0; axis < 3; ++axis) {
     f.origin[axis] = static_cast<float>(f.moved[axis]);
     float d = static_cast<float>(ray.direction[axis] * scale);
     f.near_side[axis] = d < 0.0f;
     f.direction[axis] = d;
-    // A zero would make 0 * inf; the widened boxes allow for a slope this small.
-    constexpr float kTiny = 0x1p-60f;
-    if (std::abs(d) < kTiny) d = d < 0.0f ? -kTiny : kTiny;
+    const float back = d < 0.0f ? -static_cast<float>(off) : static_cast<float>(off);
+    f.near_origin[axis] = f.origin[axis] + back, f.far_origin[axis] = f.origin[axis] - back;
+    if (std::abs(d) < kTinySlope) d = d < 0.0f ? -kTinySlope : kTinySlope;
     f.inverse[axis] = 1.0f / d;
   }
   const double local_min = (t_min - f.shift) * f.length;
@@ -83,13 +105,23 @@ struct StackEntry {
 // Eight entries a level of a tree that is at most 66 levels deep (bvh.cpp).
 inline constexpr int kStackSize = 8 * 68;
 
+// A node that a walk will open, which lies in four lines of the cache.
+HWY_INLINE void prefetch(const TriangleTree& tree, uint32_t reference) {
+  if (reference & WideBvh::kLeafBit) return;
+  const auto* node = reinterpret_cast<const char*>(&tree.nodes[reference]);
+  for (size_t line = 0; line < sizeof(WideBvh::Node); line += 64) hwy::Prefetch(node + line);
+}
+
 // The children of a node whose boxes the ray meets, the nearest last (to be popped first).
-HWY_INLINE int push_children(const WideBvh& bvh, uint32_t index, const FilterRay& ray, float t_max, StackEntry* stack,
-                             int top) {
-  const WideBvh::Node& node = bvh.nodes[index];
+HWY_INLINE int push_children(const TriangleTree& tree, uint32_t index, const FilterRay& ray, float t_max,
+                             StackEntry* stack, int top) {
+  const WideBvh::Node& node = tree.nodes[index];
   const FloatTag tag;
   constexpr size_t kLanes = hn::MaxLanes(tag);
-  const auto ox = hn::Set(tag, ray.origin[0]), oy = hn::Set(tag, ray.origin[1]), oz = hn::Set(tag, ray.origin[2]);
+  const auto ox = hn::Set(tag, ray.near_origin[0]), oy = hn::Set(tag, ray.near_origin[1]),
+             oz = hn::Set(tag, ray.near_origin[2]);
+  const auto px = hn::Set(tag, ray.far_origin[0]), py = hn::Set(tag, ray.far_origin[1]),
+             pz = hn::Set(tag, ray.far_origin[2]);
   const auto ix = hn::Set(tag, ray.inverse[0]), iy = hn::Set(tag, ray.inverse[1]), iz = hn::Set(tag, ray.inverse[2]);
   HWY_ALIGN float entry[WideBvh::kWidth];
   uint32_t mask = 0;
@@ -98,9 +130,9 @@ HWY_INLINE int push_children(const WideBvh& bvh, uint32_t index, const FilterRay
     const auto nx = hn::Mul(hn::Sub(plane(ray.near_side[0], 0), ox), ix);
     const auto ny = hn::Mul(hn::Sub(plane(ray.near_side[1], 1), oy), iy);
     const auto nz = hn::Mul(hn::Sub(plane(ray.near_side[2], 2), oz), iz);
-    const auto fx = hn::Mul(hn::Sub(plane(1 - ray.near_side[0], 0), ox), ix);
-    const auto fy = hn::Mul(hn::Sub(plane(1 - ray.near_side[1], 1), oy), iy);
-    const auto fz = hn::Mul(hn::Sub(plane(1 - ray.near_side[2], 2), oz), iz);
+    const auto fx = hn::Mul(hn::Sub(plane(1 - ray.near_side[0], 0), px), ix);
+    const auto fy = hn::Mul(hn::Sub(plane(1 - ray.near_side[1], 1), py), iy);
+    const auto fz = hn::Mul(hn::Sub(plane(1 - ray.near_side[2], 2), pz), iz);
     const auto near = hn::Max(hn::Max(nx, ny), hn::Max(nz, hn::Set(tag, ray.t_min)));
     const auto far = hn::Min(hn::Min(fx, fy), hn::Min(fz, hn::Set(tag, t_max)));
     hn::Store(near, tag, entry + i);
@@ -113,7 +145,7 @@ HWY_INLINE int push_children(const WideBvh& bvh, uint32_t index, const FilterRay
     const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
     mask &= mask - 1;
     const StackEntry e{node.child[c], entry[c]};
-    if (!(e.node & WideBvh::kLeafBit)) hwy::Prefetch(&bvh.nodes[e.node]);
+    prefetch(tree, e.node);
     int place = top++;
     for (; place > first && stack[place - 1].t < e.t; --place) stack[place] = stack[place - 1];
     stack[place] = e;
@@ -147,9 +179,7 @@ HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ra
   using V = hn::Vec<FloatTag>;
   const V ox = hn::Set(tag, ray.origin[s.kx]), oy = hn::Set(tag, ray.origin[s.ky]), oz = hn::Set(tag, ray.origin[s.kz]);
   const V sx = hn::Set(tag, s.sx), sy = hn::Set(tag, s.sy), sz = hn::Set(tag, s.sz);
-  // Points in the sheared plane are off by less than this: 33 roundings of 2^-25 (of origin, direction, vertex, shear
-  // and their products) come to 2^-19.9. What is discarded and what is accepted both rest on it.
-  const V slack = hn::Set(tag, 0x1p-19f);
+  const V slack = hn::Set(tag, ray.slack);
   Sifted out;
   for (size_t i = 0; i < 8; i += kLanes) {
     V x[3], y[3], t[3];
@@ -185,122 +215,165 @@ HWY_INLINE Sifted sift_triangles(const TriangleBlock& block, const FilterRay& ra
   return out;
 }
 
-struct NaiveHit {
-  int lane = -1;  // < 0: none
-  float t = 0.0f, u = 0.0f, v = 0.0f;
-};
-HWY_INLINE NaiveHit naive_triangles(const TriangleBlock& block, const FilterRay& ray, float t_min, float t_max) {
-  const FloatTag tag;
-  constexpr size_t kLanes = hn::MaxLanes(tag);
-  using V = hn::Vec<FloatTag>;
-  const V dx = hn::Set(tag, ray.direction[0]), dy = hn::Set(tag, ray.direction[1]), dz = hn::Set(tag, ray.direction[2]);
-  HWY_ALIGN float t[8], u[8], v[8];
-  uint32_t mask = 0;
-  for (size_t i = 0; i < 8; i += kLanes) {
-    const auto corner = [&](int vertex, int axis) HWY_ATTR { return hn::Load(tag, block.vertex[vertex][axis] + i); };
-    const V ax = corner(0, 0), ay = corner(0, 1), az = corner(0, 2);
-    const V bx = hn::Sub(corner(1, 0), ax), by = hn::Sub(corner(1, 1), ay), bz = hn::Sub(corner(1, 2), az);
-    const V cx = hn::Sub(corner(2, 0), ax), cy = hn::Sub(corner(2, 1), ay), cz = hn::Sub(corner(2, 2), az);
-    const auto cross = [](V p, V q, V r, V s) HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
-    const auto dot = [](V px, V py, V pz, V qx, V qy, V qz)
-                         HWY_ATTR { return hn::Add(hn::Add(hn::Mul(px, qx), hn::Mul(py, qy)), hn::Mul(pz, qz)); };
-    const V px = cross(dy, cz, dz, cy), py = cross(dz, cx, dx, cz), pz = cross(dx, cy, dy, cx);
-    const V inverse = hn::Div(hn::Set(tag, 1.0f), dot(bx, by, bz, px, py, pz));
-    const V sx = hn::Sub(hn::Set(tag, ray.origin[0]), ax), sy = hn::Sub(hn::Set(tag, ray.origin[1]), ay),
-            sz = hn::Sub(hn::Set(tag, ray.origin[2]), az);
-    const V qx = cross(sy, bz, sz, by), qy = cross(sz, bx, sx, bz), qz = cross(sx, by, sy, bx);
-    const V at_u = hn::Mul(dot(sx, sy, sz, px, py, pz), inverse), at_v = hn::Mul(dot(dx, dy, dz, qx, qy, qz), inverse),
-            at_t = hn::Mul(dot(cx, cy, cz, qx, qy, qz), inverse);
-    const V zero = hn::Zero(tag);
-    const auto inside =
-        hn::And(hn::And(hn::Ge(at_u, zero), hn::Ge(at_v, zero)), hn::Le(hn::Add(at_u, at_v), hn::Set(tag, 1.0f)));
-    const auto in_reach = hn::And(hn::Gt(at_t, hn::Set(tag, t_min)), hn::Lt(at_t, hn::Set(tag, t_max)));
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, hn::And(inside, in_reach), bits);
-    mask |= static_cast<uint32_t>(bits[0]) << i;
-    hn::Store(at_t, tag, t + i), hn::Store(at_u, tag, u + i), hn::Store(at_v, tag, v + i);
-  }
-  NaiveHit hit;
-  for (; mask != 0; mask &= mask - 1) {
-    const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
-    if (hit.lane < 0 || t[lane] < hit.t) hit = {lane, t[lane], u[lane], v[lane]};
-  }
-  return hit;
-}
-
-// How a leaf decides which of its triangles are hit.
-enum class Decide {
-  exactly,  // the float filter, then double, watertight
-  naively   // Moeller and Trumbore 1997 in float and a fixed epsilon: for benchmarks of what exactness costs
-};
-
 // Walks one ray through the scene. kAnyHit: stops at the first hit before t_max, for opaque shadows.
-template <bool kAnyHit, Decide kDecide = Decide::exactly>
+template <bool kAnyHit>
 class Walk {
  public:
   Walk(const CompiledScene& scene, const BoundedRay& bounded)
-      : scene_(scene), ray_(bounded.ray), start_(start_of(bounded.ray)) {
+      : scene_(scene), ray_(bounded.ray), start_(start_of(bounded.ray)), t_max_(bounded.t_max) {
     best_.t = bounded.t_max;
   }
 
   Hit run() {
-    for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) {
-      if (visit_body(static_cast<uint32_t>(i)) && kAnyHit) return best_;
-    }
-    if (scene_.tree.nodes.empty()) return best_;
-    const FilterRay filter = make_filter_ray({ray_.origin, ray_.direction}, -start_.reach, best_.t);
-    StackEntry stack[kStackSize];
-    int top = 1;
-    stack[0] = {0, filter.t_min};
-    float t_max = filter.t_max;
-    while (top > 0) {
-      const StackEntry e = stack[--top];
-      if (e.t > t_max) continue;
-      if (!(e.node & WideBvh::kLeafBit)) {
-        top = push_children(scene_.tree, e.node, filter, t_max, stack, top);
-        continue;
-      }
-      const WideBvh::Leaf& leaf = scene_.tree.leaves[e.node & ~WideBvh::kLeafBit];
-      if (visit_body(scene_.tree.order[leaf.first])) {
-        if (kAnyHit) return best_;
-        t_max = filter_t_max(end_of_ties(best_.t), filter.shift, filter.length);
-      }
-    }
+    visit_all();
+    if (kAnyHit || !has_tie_) return best_;
+    // Something lies in the same place as the nearest hit, or nearly: among those the lowest id wins, whatever the
+    // order in which they are met.
+    front_ = best_;
+    visit_all();
     return best_;
   }
 
+  // The nearest hit with one body alone.
   Hit run_body(uint32_t index) {
-    visit_body(index);
+    only_ = index;
+    const CompiledBody& body = scene_.bodies[index];
+    if (body.kind == BodyKind::mesh && !body.tree) {
+      visit_tree(scene_.tree, kNone, world());
+    } else {
+      visit_body(index);
+    }
     return best_;
   }
 
- private:
-  // True if the body gave a nearer hit.
-  bool visit_body(uint32_t index) {
+  // The nearest hit with a sphere, box or plane that lies ahead, whatever else is there.
+  bool meet_solid(uint32_t index, double& t, uint32_t& prim) const {
     const CompiledBody& body = scene_.bodies[index];
     const LocalRay local = to_local(body, ray_);
     const bool has_left = ray_.left.body == index;
     const auto is_ahead = [&](double at, uint32_t of) { return this->is_ahead(index, local, of, at); };
-    double t = 0.0;
-    uint32_t prim = 0;
+    prim = 0;
     switch (body.kind) {
-      case BodyKind::mesh:
-        return visit_mesh(index, *body.mesh, local);
       case BodyKind::sphere:
-        if (!intersect_sphere(local, has_left, is_ahead, t)) return false;
-        break;
+        return intersect_sphere(local, has_left, is_ahead, t);
       case BodyKind::box:
-        if (!intersect_box(
-                body.half, local, has_left ? ray_.left.prim : kNone, is_ahead,
-                [&] { return local_rounding(body, ray_); }, t, prim)) {
-          return false;
-        }
-        break;
+        return intersect_box(
+            body.half, local, has_left ? ray_.left.prim : kNone, is_ahead, [&] { return local_rounding(body, ray_); },
+            t, prim);
       case BodyKind::plane:
-        if (!intersect_plane(local, has_left, is_ahead, t)) return false;
+        return intersect_plane(local, has_left, is_ahead, t);
+      case BodyKind::mesh:
         break;
     }
-    return offer(index, prim, t, 0.0, 0.0);
+    return false;
+  }
+
+  // The ray in the space of a mesh, as the exact test of triangles takes it.
+  struct Inside {
+    uint32_t body = kNone;
+    LocalRay local;
+    Vec3 moved{0.0};
+    double shift = 0.0;
+    Shear shear{Vec3(0.0, 0.0, 1.0)};
+  };
+  Inside inside(uint32_t index) const {
+    Inside in;
+    in.body = index;
+    in.local = to_local(scene_.bodies[index], ray_);
+    in.moved = moved_origin(in.local, in.shift);
+    in.shear = Shear(in.local.direction);
+    return in;
+  }
+
+  // Whether the ray meets a triangle ahead; it is not the one that it has left.
+  bool meet_triangle(const Inside& in, uint32_t id, Hit& hit) const {
+    const CompiledMesh& mesh = *scene_.bodies[in.body].mesh;
+    const auto& tri = mesh.triangles[id];
+    TriangleHit found;
+    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], in.moved, in.shear,
+                            found))
+      return false;
+    hit = {in.shift + found.t, in.body, id, found.b0, found.b1};
+    return is_ahead(in.body, in.local, id, hit.t);
+  }
+
+ private:
+  bool is_settling() const { return front_.is_hit(); }
+  // Nothing from here on is asked for.
+  double end() const { return is_settling() ? end_of_ties(front_.t) : best_.is_hit() ? end_of_ties(best_.t) : best_.t; }
+
+  FilterRay world() const {
+    return make_filter_ray({ray_.origin, ray_.direction}, strayed(ray_.origin), -start_.reach, end());
+  }
+
+  void visit_all() {
+    for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) {
+      if (visit_body(static_cast<uint32_t>(i)) && kAnyHit) return;
+    }
+    visit_tree(scene_.tree, kNone, world());
+  }
+
+  // True if the body gave a nearer hit. Merged meshes are met in the scene's tree.
+  bool visit_body(uint32_t index) {
+    const CompiledBody& body = scene_.bodies[index];
+    if (body.kind == BodyKind::mesh)
+      return visit_tree(*body.tree, index, make_filter_ray(to_local(body, ray_), 0.0, -start_.reach, end()));
+    double t = 0.0;
+    uint32_t prim = 0;
+    if (!meet_solid(index, t, prim)) return false;
+    return offer({t, index, prim, 0.0, 0.0});
+  }
+
+  // Walks a tree in whose space the filter lies: the scene's (owner kNone), or that of the owner's mesh. True if there
+  // was a nearer hit; for any hit it ends there.
+  bool visit_tree(const TriangleTree& tree, uint32_t owner, const FilterRay& filter) {
+    if (tree.nodes.empty()) return false;
+    const FilterShear shear(filter);
+    // From here on a hit lies ahead without any doubt.
+    const float t_sure = filter_t_max(2.0 * start_.reach, filter.shift, filter.length);
+    StackEntry stack[kStackSize];
+    int top = 1;
+    stack[0] = {0, filter.t_min};
+    float t_max = filter.t_max;
+    bool found = false;
+    while (top > 0) {
+      const StackEntry e = stack[--top];
+      if (e.t > t_max) continue;
+      if (!(e.node & WideBvh::kLeafBit)) {
+        top = push_children(tree, e.node, filter, t_max, stack, top);
+        continue;
+      }
+      const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
+      const bool is_nearer = leaf & TriangleTree::kBodyBit
+                                 ? only_ == kNone && visit_body(leaf & ~TriangleTree::kBodyBit)
+                                 : visit_block(tree.blocks[leaf], owner, filter, shear, t_sure, t_max);
+      if (!is_nearer) continue;
+      if (kAnyHit) return true;
+      found = true;
+      t_max = filter_t_max(end(), filter.shift, filter.length);
+    }
+    return found;
+  }
+
+  bool visit_block(const TriangleBlock& block, uint32_t owner, const FilterRay& filter, const FilterShear& shear,
+                   float t_sure, float t_max) {
+    const Sifted sifted = sift_triangles<kAnyHit>(block, filter, shear, t_sure, t_max);
+    bool found = false;
+    for (uint32_t lanes = sifted.maybe; lanes != 0; lanes &= lanes - 1) {
+      const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const uint32_t body = owner == kNone ? block.body[lane] : owner, prim = block.prim[lane];
+      if ((ray_.left.body == body && ray_.left.prim == prim) || (only_ != kNone && only_ != body)) continue;
+      if (kAnyHit && (sifted.surely >> lane & 1) != 0) {  // that there is a hit, not where
+        best_.body = body;
+        return true;
+      }
+      if (inside_.body != body) inside_ = inside(body);
+      Hit hit;
+      if (!meet_triangle(inside_, prim, hit) || !offer(hit)) continue;
+      if (kAnyHit) return true;
+      found = true;
+    }
+    return found;
   }
 
   // Whether a hit lies ahead of the start. Where the start itself lies on the surface that is hit, the order of ids
@@ -318,30 +391,44 @@ class Walk {
   }
 
   // Surfaces up to here may lie in the same place as one at t, see is_nearer.
-  static double end_of_ties(double t) { return t + 0x1p-26 * (1.0 + std::abs(t)); }
+  static double tie_at(double t) { return 0x1p-26 * (1.0 + std::abs(t)); }
+  static double end_of_ties(double t) { return t + 0x1p-25 * (1.0 + std::abs(t)); }
 
-  bool offer(uint32_t index, uint32_t prim, double t, double b0, double b1) {
-    if (best_.is_hit() ? !is_nearer(index, prim, t) : !(t < best_.t)) return false;
-    best_ = {t, index, prim, b0, b1};
+  bool offer(const Hit& hit) {
+    const double t = hit.t;
+    if (is_settling()) {
+      if (has_lower_id(hit, best_) && t < t_max_ && are_in_one_place(hit, front_)) best_ = hit;
+      return false;
+    }
+    if (best_.is_hit()) {
+      const bool is_tied = std::abs(t - best_.t) <= tie_at(std::max(std::abs(t), std::abs(best_.t)));
+      if (t < best_.t || (t == best_.t && has_lower_id(hit, best_))) {
+        has_tie_ = is_tied;
+      } else {
+        has_tie_ |= is_tied;
+        return false;
+      }
+    } else if (!(t < best_.t)) {
+      return false;
+    }
+    best_ = hit;
     return true;
   }
 
-  // Two surfaces nearer to each other than rounding can tell, measured across them, are in one place, which the lower
+  bool has_lower_id(const Hit& a, const Hit& b) const {
+    const uint32_t body_a = scene_.bodies[a.body].body, body_b = scene_.bodies[b.body].body;
+    return body_a != body_b ? body_a < body_b : a.prim < b.prim;
+  }
+
+  // Whether rounding can tell two surfaces apart, measured across them. If not they are in one place, which the lower
   // id wins: coplanar surfaces show one colour everywhere.
-  bool is_nearer(uint32_t index, uint32_t prim, double t) const {
-    const double gap = std::abs(t - best_.t), size = std::abs(t);
-    if (gap > 0x1p-26 * (1.0 + size)) return t < best_.t;  // what nearly all hits are
-    if (gap > 0x1p-46 * size) {
-      const double reach = std::max(reach_of(scene_.bodies[index]), reach_of(scene_.bodies[best_.body]));
-      const double noise = 0x1p-46 * (reach + size);
-      if (gap > 0x1p20 * noise) return t < best_.t;
-      if (gap > noise) {
-        const double slope = std::max(steepness_at(index, prim, t), steepness_at(best_.body, best_.prim, best_.t));
-        if (gap * slope > noise) return t < best_.t;
-      }
-    }
-    const uint32_t body = scene_.bodies[index].body, best_body = scene_.bodies[best_.body].body;
-    return body != best_body ? body < best_body : prim < best_.prim;
+  bool are_in_one_place(const Hit& a, const Hit& b) const {
+    const double gap = std::abs(a.t - b.t), size = std::max(std::abs(a.t), std::abs(b.t));
+    if (gap > tie_at(size)) return false;
+    if (gap <= 0x1p-46 * size) return true;
+    const double noise = 0x1p-46 * (std::max(reach_of(scene_.bodies[a.body]), reach_of(scene_.bodies[b.body])) + size);
+    if (gap > 0x1p20 * noise) return false;
+    return gap <= noise || gap * std::max(steepness_at(a), steepness_at(b)) <= noise;
   }
 
   // How far a body reaches from the scene's centre: its place is rounded relative to this.
@@ -353,92 +440,20 @@ class Walk {
     return std::max({reach.x, reach.y, reach.z});
   }
 
-  double steepness_at(uint32_t index, uint32_t prim, double t) const {
-    const CompiledBody& body = scene_.bodies[index];
-    return steepness(body, to_local(body, ray_), ray_.direction, prim, t);
-  }
-
-  bool visit_mesh(uint32_t index, const CompiledMesh& mesh, const LocalRay& local) {
-    if (mesh.bvh.nodes.empty()) return false;
-    const FilterRay filter = make_filter_ray(local, -start_.reach, best_.t);
-    const FilterShear filter_shear(filter);
-    // From here on a hit lies ahead without any doubt.
-    const float t_sure = filter_t_max(2.0 * start_.reach, filter.shift, filter.length);
-    StackEntry stack[kStackSize];
-    int top = 1;
-    stack[0] = {0, filter.t_min};
-    float t_max = filter.t_max;
-    bool found = false;
-    while (top > 0) {
-      const StackEntry e = stack[--top];
-      if (e.t > t_max) continue;
-      if (!(e.node & WideBvh::kLeafBit)) {
-        top = push_children(mesh.bvh, e.node, filter, t_max, stack, top);
-        continue;
-      }
-      const TriangleBlock& block = mesh.blocks[e.node & ~WideBvh::kLeafBit];
-      if constexpr (kDecide == Decide::naively) {
-        if (!offer_naively(index, block, filter, t_max)) continue;
-        if (kAnyHit) return true;
-        found = true;
-        continue;
-      }
-      const Sifted sifted = sift_triangles<kAnyHit>(block, filter, filter_shear, t_sure, t_max);
-      if (kAnyHit && has_sure_hit(index, block, sifted.surely)) return true;
-      uint32_t candidates = sifted.maybe;
-      while (candidates != 0) {
-        const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(candidates);
-        candidates &= candidates - 1;
-        if (!offer_triangle(index, mesh, local, block.id[lane], filter)) continue;
-        if (kAnyHit) return true;
-        found = true;
-        t_max = filter_t_max(end_of_ties(best_.t), filter.shift, filter.length);
-      }
-    }
-    return found;
-  }
-
-  // Whether one of the triangles that are surely hit is not the one that the ray has left. Tells that there is a hit
-  // and not which: for any hit alone.
-  bool has_sure_hit(uint32_t index, const TriangleBlock& block, uint32_t surely) {
-    if (surely != 0 && ray_.left.body == index) {
-      for (uint32_t lanes = surely; lanes != 0; lanes &= lanes - 1) {
-        const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
-        if (block.id[lane] == ray_.left.prim) surely &= ~(1u << lane);
-      }
-    }
-    if (surely == 0) return false;
-    best_.body = index;
-    return true;
-  }
-
-  bool offer_triangle(uint32_t index, const CompiledMesh& mesh, const LocalRay& local, uint32_t id,
-                      const FilterRay& filter) {
-    if (ray_.left.body == index && ray_.left.prim == id) return false;
-    const auto& tri = mesh.triangles[id];
-    TriangleHit hit;
-    if (!intersect_triangle(mesh.positions[tri[0]], mesh.positions[tri[1]], mesh.positions[tri[2]], filter.moved,
-                            Shear(local.direction), hit)) {
-      return false;
-    }
-    const double t = filter.shift + hit.t;
-    return is_ahead(index, local, id, t) && offer(index, id, t, hit.b0, hit.b1);
-  }
-
-  // The nearest of the block's hits between an epsilon and t_max, which it shortens.
-  bool offer_naively(uint32_t index, const TriangleBlock& block, const FilterRay& ray, float& t_max) {
-    constexpr float kEpsilon = 1e-4f;
-    const NaiveHit hit = naive_triangles(block, ray, static_cast<float>(-ray.shift * ray.length) + kEpsilon, t_max);
-    if (hit.lane < 0) return false;
-    t_max = hit.t;
-    best_ = {ray.shift + hit.t / ray.length, index, block.id[hit.lane], 1.0 - hit.u - hit.v, hit.u};
-    return true;
+  double steepness_at(const Hit& hit) const {
+    const CompiledBody& body = scene_.bodies[hit.body];
+    return steepness(body, to_local(body, ray_), ray_.direction, hit.prim, hit.t);
   }
 
   const CompiledScene& scene_;
   const Ray& ray_;
   const Start start_;
+  const double t_max_;
   Hit best_;
+  Hit front_;              // while ties are settled: the nearest hit
+  bool has_tie_ = false;   // another hit may be in the same place as the best
+  uint32_t only_ = kNone;  // the one body that is asked for
+  Inside inside_;          // of the mesh that was asked last
 };
 
 }  // namespace HWY_NAMESPACE

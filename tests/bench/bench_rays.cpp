@@ -4,7 +4,6 @@
 // sides of a ratio taken in turn.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -20,21 +19,17 @@
 #include "renderer/shade/surface.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/trace_rays.h"
+#include "tests/bench/bench_scene.h"
 #include "tests/bench/naive_rays.h"
+#include "tests/bench/timing.h"
+#if TILELIGHT_WITH_EMBREE
+#include "tests/bench/peers.h"
+#endif
 
 namespace tilelight {
 namespace {
 
-double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+using bench::median, bench::seconds_of;
 
 constexpr int kTilePx = 32;
 
@@ -46,13 +41,11 @@ Batches primary_rays(const ViewPlan& plan) {
   Batches batches(static_cast<size_t>(tile_count(image.width, image.height, kTilePx)));
   for (size_t i = 0; i < batches.size(); ++i) {
     const TileRect rect = tile_rect(static_cast<int>(i), image.width, image.height, kTilePx);
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x) {
-        const SamplePoint p = sample_point(x, y, 0, 0);
-        const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
-        batches[i].push_back({{ray.origin, ray.direction, {}}});
-      }
-    }
+    for_each_in_squares(rect, [&](int x, int y) {
+      const SamplePoint p = sample_point(x, y, 0, 0);
+      const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
+      batches[i].push_back({{ray.origin, ray.direction, {}}});
+    });
   }
   return batches;
 }
@@ -62,19 +55,29 @@ Batches shadow_rays(const CompiledScene& scene, const Batches& primary) {
   for (const auto& rays : primary) {
     std::vector<Hit> hits(rays.size());
     trace_closest(scene, rays, hits);
-    auto& out = batches.emplace_back();
-    for (size_t i = 0; i < rays.size(); ++i) {
-      if (!hits[i].is_hit()) continue;
-      const Surface surface = make_surface(scene, rays[i].ray, hits[i]);
-      for (const CompiledLight& light : scene.lights) {
+    for (const CompiledLight& light : scene.lights) {
+      if (!light.shadow) continue;
+      auto& out = batches.emplace_back();
+      for (size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i].is_hit()) continue;
+        const Surface surface = make_surface(scene, rays[i].ray, hits[i]);
         const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction, surface.is_rounded);
-        if (sample.is_lit && light.shadow) {
-          out.push_back({{surface.position, sample.to_light, surface.here}, sample.distance});
-        }
+        if (sample.is_lit) out.push_back({{surface.position, sample.to_light, surface.here}, sample.distance});
       }
     }
   }
   return batches;
+}
+
+// From a thread of the pool, so that no more threads work than that.
+void for_each_batch(TilePool& pool, const Batches& batches,
+                    const std::function<void(const std::vector<BoundedRay>&)>& work) {
+  pool.submit(Priority::normal,
+              [&] {
+                pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
+                                  [&](int64_t i) { work(batches[static_cast<size_t>(i)]); });
+              })
+      .get();
 }
 
 int64_t count(const Batches& batches) {
@@ -110,8 +113,7 @@ void print_row(const Row& row, int rounds, const std::string& plain) {
 void print_robustness(const CompiledScene& scene, const Batches& primary, const Batches& shadow, TilePool& pool,
                       int rounds) {
   const auto each = [&](const Batches& batches, const std::function<void(const std::vector<BoundedRay>&)>& trace) {
-    pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
-                      [&](int64_t i) { trace(batches[static_cast<size_t>(i)]); });
+    for_each_batch(pool, batches, trace);
   };
   const auto closest = [&](auto trace) {
     return [&, trace](const std::vector<BoundedRay>& rays) {
@@ -125,35 +127,40 @@ void print_robustness(const CompiledScene& scene, const Batches& primary, const 
       trace(scene, rays, is_blocked);
     };
   };
-  std::atomic<int64_t> wrong_ids = 0, wrong_shadows = 0;
+  std::atomic<int64_t> wrong_ids = 0, wrong_shadows = 0, left_primary = 0, left_shadow = 0;
   each(primary, [&](const std::vector<BoundedRay>& rays) {
     std::vector<Hit> ours(rays.size()), naive(rays.size());
     trace_closest(scene, rays, ours);
     naive_closest(scene, rays, naive);
     for (size_t i = 0; i < rays.size(); ++i)
       wrong_ids += ours[i].body != naive[i].body || ours[i].prim != naive[i].prim;
+    left_primary += undecided_of(scene, rays).closest;
   });
   each(shadow, [&](const std::vector<BoundedRay>& rays) {
     std::vector<uint8_t> ours(rays.size()), naive(rays.size());
     trace_any(scene, rays, ours);
     naive_any(scene, rays, naive);
     for (size_t i = 0; i < rays.size(); ++i) wrong_shadows += ours[i] != naive[i];
+    left_shadow += undecided_of(scene, rays).any;
   });
-  std::printf("\n%-14s %12s %16s %18s %14s\n", "robustness", "ours ms", "naive float ms", "ours over naive",
-              "naive wrong");
-  const auto row = [&](const char* name, const Batches& batches, const auto& ours, const auto& naive, int64_t wrong) {
+  std::printf("\n%-14s %12s %16s %18s %14s %18s\n", "robustness", "ours ms", "naive float ms", "ours over naive",
+              "naive wrong", "ours one by one");
+  const auto row = [&](const char* name, const Batches& batches, const auto& ours, const auto& naive, int64_t wrong,
+                       int64_t left) {
     std::vector<double> ours_s, naive_s, ratio;
     for (int i = 0; i < rounds; ++i) {
       ours_s.push_back(seconds_of([&] { each(batches, ours); }));
       naive_s.push_back(seconds_of([&] { each(batches, naive); }));
       ratio.push_back(ours_s.back() / naive_s.back());
     }
-    std::printf("%-14s %12.1f %16.1f %17.2fx %13.4f%%\n", name, 1e3 * median(ours_s), 1e3 * median(naive_s),
-                median(ratio),
-                100.0 * static_cast<double>(wrong) / static_cast<double>(std::max<int64_t>(1, count(batches))));
+    const auto part = [&](int64_t of) {
+      return 100.0 * static_cast<double>(of) / static_cast<double>(std::max<int64_t>(1, count(batches)));
+    };
+    std::printf("%-14s %12.1f %16.1f %17.2fx %13.4f%% %17.2f%%\n", name, 1e3 * median(ours_s), 1e3 * median(naive_s),
+                median(ratio), part(wrong), part(left));
   };
-  row("primary", primary, closest(trace_closest), closest(naive_closest), wrong_ids);
-  row("shadow", shadow, any(trace_any), any(naive_any), wrong_shadows);
+  row("primary", primary, closest(trace_closest), closest(naive_closest), wrong_ids, left_primary);
+  row("shadow", shadow, any(trace_any), any(naive_any), wrong_shadows, left_shadow);
 }
 
 struct Stage {
@@ -209,17 +216,13 @@ int run(const std::string& path, int rounds, int threads, bool robustness) {
   std::printf("%-14s %9s %10s %12s %16s %10s\n", "rays", "Mrays", "ms", "Mrays/s", ("on " + plain).c_str(), "ratio");
   const Batches primary = primary_rays(plan);
   const Batches shadow = shadow_rays(*scene, primary);
-  const auto each_batch = [&](const Batches& batches, auto trace) {
-    pool.parallel_for(static_cast<int64_t>(batches.size()), Priority::normal,
-                      [&](int64_t i) { trace(batches[static_cast<size_t>(i)]); });
-  };
   if (robustness) {
     print_robustness(*scene, primary, shadow, pool, rounds);
     return 0;
   }
   print_row({"primary", count(primary),
              [&] {
-               each_batch(primary, [&](const std::vector<BoundedRay>& rays) {
+               for_each_batch(pool, primary, [&](const std::vector<BoundedRay>& rays) {
                  std::vector<Hit> hits(rays.size());
                  trace_closest(*scene, rays, hits);
                });
@@ -227,7 +230,7 @@ int run(const std::string& path, int rounds, int threads, bool robustness) {
             rounds, plain);
   print_row({"shadow", count(shadow),
              [&] {
-               each_batch(shadow, [&](const std::vector<BoundedRay>& rays) {
+               for_each_batch(pool, shadow, [&](const std::vector<BoundedRay>& rays) {
                  std::vector<uint8_t> is_blocked(rays.size());
                  trace_any(*scene, rays, is_blocked);
                });
@@ -250,6 +253,33 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "Threads; 0: one a core")->check(CLI::Range(0, 1024))->capture_default_str();
   bool robustness = false;
   app.add_flag("--robustness", robustness, "What exactness costs: beside float kernels without the care for numbers");
+  std::string peer, scenes = "sml";
+  bool robust_peer = false;
+  app.add_option("--peer", peer, "Beside another tracer, on the bench scenes: embree")
+      ->check(CLI::IsMember({"embree"}));
+  app.add_option("--scenes", scenes, "Which of them: s, m, l (63,000, 670,000, 6.6 million triangles)")
+      ->capture_default_str();
+  app.add_flag("--robust-peer", robust_peer, "Embree's robust mode");
   CLI11_PARSE(app, argc, argv);
+  if (!peer.empty()) {
+#if TILELIGHT_WITH_EMBREE
+    using namespace tilelight;
+    TilePool pool(threads);
+    // From a thread of the pool, so that a loop over tiles has no more threads than that.
+    return pool
+        .submit(Priority::normal,
+                [&] {
+                  for (const char size : scenes) {
+                    bench::compare_with_embree(std::string(1, size), bench::bench_scene(bench::detail_of(size)), pool,
+                                               rounds, robust_peer);
+                  }
+                  return 0;
+                })
+        .get();
+#else
+    std::fprintf(stderr, "bench_rays: built without Embree; install libembree-dev and configure again\n");
+    return 2;
+#endif
+  }
   return tilelight::run(path, rounds, threads, robustness);
 }

@@ -100,6 +100,7 @@ TEST_F(Compile, EachFeatureOfASceneFlipsExactlyItsBit) {
 TEST_F(Compile, AViewWithoutShadowsOrDepthNeedsALeanerKernel) {
   Scene scene = one_sphere();
   scene.materials[0].reflection = Color(0.5);
+  scene.objects.push_back(sphere_at({3, 1, 0}, 1));
   const auto compiled = compile_scene(scene, pool_);
   View view;
   EXPECT_EQ(plan_view(*compiled, view, "").variant, KernelVariant::mirrors_shadows);
@@ -108,6 +109,28 @@ TEST_F(Compile, AViewWithoutShadowsOrDepthNeedsALeanerKernel) {
   view.render.shadows = false;
   EXPECT_EQ(plan_view(*compiled, view, "").variant, KernelVariant::local);
   EXPECT_TRUE(says(plan_view(*compiled, view, "").plan.left_out, "feature shadows"));
+}
+
+TEST_F(Compile, OneConvexBodySeenFromOutsideNeedsNoShadowRays) {
+  const auto has_shadows = [&](const Scene& scene, const View& view) {
+    return plan_view(*compile_scene(scene, pool_), view, "").features.has(Feature::shadows);
+  };
+  Scene scene = one_sphere();
+  View outside, inside;
+  outside.camera = Camera{.position = {0, 1, 5}, .target = {0, 1, 0}};
+  inside.camera = Camera{.position = {0, 1, 0.9}, .target = {0, 1, 0}};
+  EXPECT_FALSE(has_shadows(scene, outside));
+  EXPECT_TRUE(has_shadows(scene, inside));
+  scene.materials[0].transmission = Color(0.5);
+  EXPECT_TRUE(has_shadows(scene, outside));
+  scene = one_sphere();
+  scene.objects[0].shape = BoxShape{{-1, 0, -1}, {1, 2, 1}};
+  EXPECT_FALSE(has_shadows(scene, outside));
+  EXPECT_TRUE(has_shadows(scene, inside));
+  scene.objects[0].shape = PlaneShape{{0, 0, 0}, {0, 1, 0}};
+  EXPECT_FALSE(has_shadows(scene, outside));
+  scene.objects.push_back(sphere_at({3, 1, 0}, 1));
+  EXPECT_TRUE(has_shadows(scene, outside));
 }
 
 TEST_F(Compile, NormalisesTheSceneIntoTheUnitCubeByAPowerOfTwo) {
@@ -343,6 +366,10 @@ void expect_nested(const WideBvh& bvh, const std::vector<Box>& boxes, uint32_t n
   }
 }
 
+BoxSource source_of(const std::vector<Box>& boxes) {
+  return {static_cast<uint32_t>(boxes.size()), [&boxes](uint32_t i) { return boxes[i]; }};
+}
+
 TEST_F(Compile, TheTreeHoldsEveryBoxOnceAlsoWhenAllAreEqual) {
   std::vector<Box> spread, equal(100'000);
   for (int i = 0; i < 40'000; ++i) {
@@ -354,7 +381,7 @@ TEST_F(Compile, TheTreeHoldsEveryBoxOnceAlsoWhenAllAreEqual) {
   }
   for (Box& box : equal) box.grow(Vec3(0.25)), box.grow(Vec3(0.5));
   for (const auto* boxes : {&spread, &equal}) {
-    const WideBvh bvh = build_bvh(*boxes, 8, pool_);
+    const WideBvh bvh = build_bvh(source_of(*boxes), 8, pool_);
     std::vector<int> seen(boxes->size());
     expect_nested(bvh, *boxes, 0, seen);
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(boxes->size()));
@@ -370,7 +397,7 @@ TEST_F(Compile, TheTreeIsTheSameOnAnyNumberOfThreads) {
     boxes.push_back(box);
   }
   TilePool one(1), seven(7);
-  EXPECT_EQ(build_bvh(boxes, 8, one).order, build_bvh(boxes, 8, seven).order);
+  EXPECT_EQ(build_bvh(source_of(boxes), 8, one).order, build_bvh(source_of(boxes), 8, seven).order);
 }
 
 }  // namespace

@@ -67,6 +67,35 @@ TEST(Render, GivesTheSameBytesOnAnyThreadsAndTiles) {
   }
 }
 
+TEST(Render, GivesTheBytesOfTheKernelThatCanDoAllWhereALeanerOneIsChosen) {
+  TilePool pool(2);
+  const std::string head = R"({"image": {"width": 61, "height": 47}, "render": {"samples": 2},
+    "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 6},
+               {"type": "directional", "direction": [-1, -2, -1], "intensity": 0.4}],
+    "camera": {"position": [2, 3, 6], "target": [0, 0.5, 0]},
+    "materials": {"mirror": {"diffuse": 0.4, "specular": 0.6, "reflection": 0.5}}, "objects": [)";
+  const std::string sphere = R"({"type": "sphere", "center": [0, 1, 0], "radius": 1)",
+                    box = R"({"type": "box", "min": [-1, 0, -1], "max": [1, 1, 1])",
+                    plane = R"({"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0])",
+                    knight = R"({"type": "chess_piece", "piece": "knight", "position": [0, 0, 0], "detail": 16)",
+                    mirror = R"(, "material": "mirror"})", dull = "}";
+  for (const std::string& objects :
+       {sphere + dull, sphere + mirror, box + dull, box + mirror, plane + mirror, knight + dull, knight + mirror,
+        sphere + mirror + "," + plane + dull, knight + dull + "," + plane + mirror}) {
+    const Prepared p = prepare(pool, (head + objects + "]}").c_str());
+    ViewPlan plan = plan_view(*p.scene, p.view);
+    EXPECT_NE(plan.variant, KernelVariant::glass_shadows);
+    const auto image_of = [&] {
+      const auto render = Render::start(pool, Priority::normal, p.scene, plan);
+      EXPECT_TRUE(render->wait_ms(1e12));
+      return render->image()->rgb;
+    };
+    const std::vector<float> lean = image_of();
+    plan.variant = KernelVariant::glass_shadows;
+    EXPECT_EQ(image_of(), lean) << objects;
+  }
+}
+
 TEST(Render, GivesTheSameBytesOnEveryInstructionSet) {
   const auto two_samples = [](RenderSpec& spec) { spec.samples = 2; };
   const auto expected = render(2, 32, two_samples);

@@ -229,6 +229,81 @@ TEST_F(TraceRays, OfAnyHitAgreeWithThoseOfTheNearest) {
   }
 }
 
+// Neighbouring rays are walked together, through a tree that holds most meshes' triangles; what they meet may not
+// depend on that in a bit.
+TEST_F(TraceRays, MeetInBundlesWhatTheyMeetOneByOneAndInMeshesTreesOfTheirOwn) {
+  Scene scene = scene_of_shapes({MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}},
+                                 BoxShape{{-2, -1.5, -2}, {2, -1, 2}}, PlaneShape{{0, -1.5, 0}, {0, 1, 0}},
+                                 MeshShape{0}, MeshShape{0}, MeshShape{0}});
+  scene.meshes = {icosphere(3)};
+  scene.objects[5].world_from_shape = Mat4(Mat3(0.01, 0, 0, 0, 2, 0, 0, 0, 0.3));
+  scene.objects[5].world_from_shape[3] = Vec4(0.2, 0.4, 1.6, 1.0);
+  scene.objects[6].world_from_shape = Mat4(Mat3(1e-5));
+  scene.objects[6].world_from_shape[3] =
+      Vec4(0.0, 1.0, 0.0, 1.0);  // a grain on top of the ball; the last is the ball again
+  const auto compiled = compile_scene(scene, pool_);
+  const TriangleTree own = build_mesh_tree(*compiled->meshes[0], pool_);
+  CompiledScene apart = *compiled;
+  int merged = 0;
+  for (CompiledBody& body : apart.bodies) {
+    if (body.kind != BodyKind::mesh) continue;
+    merged += body.tree == nullptr;
+    body.tree = &own;
+  }
+  apart.tree = build_scene_tree(apart, pool_);
+  EXPECT_EQ(merged, 3);  // all but the grain
+  const Vec3 lamp = (Vec3(3.0, 4.0, 2.0) - compiled->center) / compiled->units;
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto anywhere = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  const auto one_by_one = [&](const std::vector<BoundedRay>& rays) {
+    std::vector<Hit> hits(rays.size());
+    for (size_t i = 0; i < rays.size(); ++i) trace_closest(*compiled, {&rays[i], 1}, {&hits[i], 1});
+    return hits;
+  };
+  std::vector<std::vector<BoundedRay>> bundles;
+  for (int i = 0; i < 600; ++i) {
+    const double distance = std::pow(10.0, i % 6 * 2.0 - 1.0), spread = std::pow(10.0, -0.5 * (i % 11));
+    const Vec3 target = i % 5 == 0 ? (Vec3(0.0, 1.0, 0.0) - compiled->center) / compiled->units : 0.5 * anywhere();
+    const Vec3 eye = target + distance * glm::normalize(anywhere());
+    std::vector<BoundedRay> rays, shadows;
+    for (int k = 0; k < 5 + i % 40; ++k)
+      rays.push_back({{eye, glm::normalize(target + 0.3 * spread * anywhere() - eye), {}}});
+    const std::vector<Hit> hits = one_by_one(rays);
+    for (size_t k = 0; k < rays.size(); ++k) {
+      if (!hits[k].is_hit()) continue;
+      const Surface surface = make_surface(*compiled, rays[k].ray, hits[k]);
+      const double to_lamp = glm::length(lamp - surface.position);
+      shadows.push_back(
+          {{surface.position, (lamp - surface.position) / to_lamp, surface.here, Coincident::before}, to_lamp});
+    }
+    bundles.push_back(rays);
+    if (!shadows.empty()) bundles.push_back(shadows);
+  }
+  for (const std::string& isa : available_isas()) {
+    ASSERT_TRUE(select_isa(isa).has_value());
+    int differing = 0, blocked_otherwise = 0, met = 0;
+    for (const auto& rays : bundles) {
+      const std::vector<Hit> expected = one_by_one(rays);
+      for (const CompiledScene* same : {compiled.get(), static_cast<const CompiledScene*>(&apart)}) {
+        std::vector<Hit> hits(rays.size());
+        std::vector<uint8_t> is_blocked(rays.size());
+        trace_closest(*same, rays, hits);
+        trace_any(*same, rays, is_blocked);
+        for (size_t i = 0; i < rays.size(); ++i) {
+          const Hit &a = hits[i], &b = expected[i];
+          differing += a.t != b.t || a.body != b.body || a.prim != b.prim || a.b0 != b.b0 || a.b1 != b.b1;
+          blocked_otherwise += static_cast<bool>(is_blocked[i]) != b.is_hit();
+          met += b.is_hit();
+        }
+      }
+    }
+    EXPECT_EQ(differing, 0) << isa;
+    EXPECT_EQ(blocked_otherwise, 0) << isa;
+    EXPECT_GT(met, 5000) << isa;
+  }
+}
+
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
   Scene scene = scene_of_shapes(
       {MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});

@@ -127,7 +127,7 @@ Outcome coincident_triangles(const Context& context) {
     out.ours.push_back(at_most(0, which + "rays that show another id than the lowest",
                                wrong_ids(scene, is_concentric, side, context.pool)));
     out.ours.push_back(at_most(2 * kSlowdown, which + "build, s of all threads", build_s));
-    out.ours.push_back(at_most(kDeepest, which + "depth of the tree", compiled.meshes[0]->bvh.depth));
+    out.ours.push_back(at_most(kDeepest, which + "depth of the tree", compiled.tree.depth));
   }
   std::vector<double> centroids;  // along y
   const MeshData mesh = coincident();

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sixteen rays that go nearly the same way, walked through the scene's tree together. All that is decided here is
+// decided in float with a margin above its rounding: a triangle that a ray meets beyond doubt, at a distance that no
+// other's can be confused with. What cannot be said so is decided in double at once (a hair beside an edge), or the ray
+// is left to the walk of single rays (two surfaces in one place, walk-inl.h). So the answers are those of that walk to
+// the last bit, whatever the packet. Included once for every instruction set.
+#if defined(TILELIGHT_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TILELIGHT_PACKET_INL_H
+#undef TILELIGHT_PACKET_INL_H
+#else
+#define TILELIGHT_PACKET_INL_H
+#endif
+
+#include <span>
+
+#include "renderer/trace/packet_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tilelight {
+namespace HWY_NAMESPACE {
+
+// What sixteen rays know of their hits; t counts from the moved origins.
+struct LaneHits {
+  alignas(64) float low[kPacketRays], high[kPacketRays];      // the best hit's t lies between
+  alignas(64) float doubt[kPacketRays];                       // no other hit, and no doubtful one, lies before
+  alignas(64) float t_sure[kPacketRays];                      // from here on a hit lies ahead without any doubt
+  alignas(64) uint32_t body[kPacketRays], prim[kPacketRays];  // the best hit; kNone: none
+  alignas(64) uint32_t left_body[kPacketRays], left_prim[kPacketRays];  // what the ray has left
+};
+
+// One triangle of a block against all lanes: hits beyond doubt go to low, high and prim; returned are the lanes, as
+// bits, of which float cannot say whether they meet it.
+template <bool kAnyHit>
+struct SureTriangles {
+  static constexpr bool kInDouble = true;  // what is found is computed in double at the end
+
+  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, bool has_left,
+                                   LaneHits& lane) {
+    const LaneTag tag;
+    const LaneIntTag int_tag;
+    using V = hn::Vec<LaneTag>;
+    const auto body = hn::Set(int_tag, block.body[k]), prim = hn::Set(int_tag, block.prim[k]);
+    const auto take = [&](auto mask, size_t i) HWY_ATTR {
+      const auto taken = hn::RebindMask(int_tag, mask);
+      hn::Store(hn::IfThenElse(taken, body, hn::Load(int_tag, lane.body + i)), int_tag, lane.body + i);
+      hn::Store(hn::IfThenElse(taken, prim, hn::Load(int_tag, lane.prim + i)), int_tag, lane.prim + i);
+    };
+    uint32_t unsure = 0;
+    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+      const V ox = hn::Load(tag, rays.origin[rays.kx] + i), oy = hn::Load(tag, rays.origin[rays.ky] + i),
+              oz = hn::Load(tag, rays.origin[rays.kz] + i);
+      const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
+      const V sx = hn::Load(tag, rays.slope[0] + i), sy = hn::Load(tag, rays.slope[1] + i);
+      V x[3], y[3], t[3], most = hn::Zero(tag);
+      for (int v = 0; v < 3; ++v) {
+        const V z = hn::Sub(hn::Set(tag, block.vertex[v][rays.kz][k]), oz);
+        x[v] = hn::NegMulAdd(sx, z, hn::Sub(hn::Set(tag, block.vertex[v][rays.kx][k]), ox));
+        y[v] = hn::NegMulAdd(sy, z, hn::Sub(hn::Set(tag, block.vertex[v][rays.ky][k]), oy));
+        t[v] = hn::Mul(sz, z);
+        most = hn::Max(most, hn::Add(hn::Abs(x[v]), hn::Abs(y[v])));
+      }
+      const V u = hn::MulSub(x[2], y[1], hn::Mul(y[2], x[1])), v = hn::MulSub(x[0], y[2], hn::Mul(y[0], x[2])),
+              w = hn::MulSub(x[1], y[0], hn::Mul(y[1], x[0]));
+      const V bound = hn::Mul(hn::Set(tag, 2.0f * rays.slack), most);
+      const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
+      // The hit's t lies between those of the vertices.
+      const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
+      const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
+      const V slack =
+          hn::MulAdd(hn::Set(tag, kFilterSlack), hn::Add(size, hn::Set(tag, 1.0f)), hn::Load(tag, rays.tie + i));
+      const V high = hn::Load(tag, lane.high + i);
+      auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
+      maybe = hn::And(maybe,
+                      hn::And(hn::Le(hn::Sub(nearest, slack), high), hn::Ge(farthest, hn::Load(tag, rays.t_min + i))));
+      if (has_left) {
+        const auto is_left = hn::And(hn::Eq(hn::Load(int_tag, lane.left_prim + i), prim),
+                                     hn::Eq(hn::Load(int_tag, lane.left_body + i), body));
+        maybe = hn::AndNot(hn::RebindMask(tag, is_left), maybe);
+      }
+      if (hn::AllFalse(tag, maybe)) continue;
+
+      const V twice = hn::Add(bound, bound);
+      auto surely = hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice)));
+      surely = hn::And(hn::And(surely, maybe), hn::Gt(hn::Sub(nearest, slack), hn::Load(tag, lane.t_sure + i)));
+      if (kAnyHit) {
+        surely = hn::And(surely, hn::Lt(hn::MulAdd(hn::Set(tag, 2.0f), slack, farthest), high));
+        unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
+        hn::Store(hn::IfThenElse(surely, hn::Set(tag, -INFINITY), high), tag, lane.high + i);
+        take(surely, i);
+        continue;
+      }
+      unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
+      if (hn::AllFalse(tag, surely)) continue;
+      // Each weight is off by less than its bound, and their sum is at least six bounds.
+      const V sum = hn::Add(u, hn::Add(v, w));
+      const V inverse = hn::Div(hn::Set(tag, 1.0f), sum);
+      const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
+      const V off =
+          hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
+      const V low = hn::Sub(at, off), upper = hn::Add(at, off);
+      const auto wins = hn::And(surely, hn::Lt(upper, high));
+      const auto loses = hn::AndNot(wins, surely);
+      const V best_low = hn::Load(tag, lane.low + i);
+      V before = hn::IfThenElse(wins, best_low, hn::Set(tag, INFINITY));
+      before = hn::IfThenElse(loses, low, before);
+      hn::Store(hn::Min(hn::Load(tag, lane.doubt + i), before), tag, lane.doubt + i);
+      hn::Store(hn::IfThenElse(wins, upper, high), tag, lane.high + i);
+      hn::Store(hn::IfThenElse(wins, low, best_low), tag, lane.low + i);
+      take(wins, i);
+    }
+    return unsure;
+  }
+};
+
+// Triangles: how triangles are met; another one in tests/bench shows what the care for numbers costs.
+template <bool kAnyHit, class Triangles = SureTriangles<kAnyHit>>
+class PacketWalk {
+ public:
+  explicit PacketWalk(const CompiledScene& scene) : scene_(scene) {}
+
+  // REQUIRES: 1 to kPacketRays rays; they stay where they are until the last answer.
+  void take(std::span<const BoundedRay> rays) {
+    input_ = rays;
+    inside_[0].body = inside_[1].body = kNone;
+    has_left_ = false;
+    const auto count = static_cast<int>(rays.size());
+    alignas(64) double t_max[kPacketRays];
+    alignas(64) float reach[kPacketRays];
+    for (int i = 0; i < kPacketRays; ++i) {
+      const BoundedRay& ray = rays[static_cast<size_t>(i < count ? i : 0)];
+      for (int axis = 0; axis < 3; ++axis) {
+        origin_[axis][i] = ray.ray.origin[axis];
+        direction_[axis][i] = ray.ray.direction[axis];
+      }
+      lane_.left_body[i] = ray.ray.left.body, lane_.left_prim[i] = ray.ray.left.prim;
+      t_max[i] = i < count ? ray.t_max : kMissed;
+      has_left_ |= ray.ray.left.body != kNone;
+    }
+    std::fill_n(reach_, kPacketRays, 0.0);
+    std::fill_n(reach, kPacketRays, 0.0f);
+    if (has_left_) {
+      for (int i = 0; i < kPacketRays; ++i) {
+        const double size = std::abs(origin_[0][i]) + std::abs(origin_[1][i]) + std::abs(origin_[2][i]);
+        reach_[i] = lane_.left_body[i] == kNone ? 0.0 : reach_at(size);
+        reach[i] = static_cast<float>(reach_[i]);
+      }
+    }
+    make_packet(origin_, direction_, reach, rays_);
+    const DoubleTag wide;
+    const hn::Rebind<float, DoubleTag> narrow;
+    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(wide)) {
+      const auto end = hn::Sub(hn::Load(wide, t_max + i), hn::Load(wide, rays_.shift + i));
+      hn::Store(hn::DemoteTo(narrow, hn::Min(end, hn::Set(wide, double{WideBvh::kNowhere}))), narrow, lane_.high + i);
+    }
+    const LaneTag tag;
+    const LaneIntTag int_tag;
+    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+      const auto sure =
+          hn::Sub(hn::Mul(hn::Set(tag, 2.0f), hn::Load(tag, reach + i)), hn::Load(tag, rays_.near_shift + i));
+      hn::Store(hn::Add(sure, filter_slack(sure)), tag, lane_.t_sure + i);
+      const auto end = hn::Load(tag, lane_.high + i);
+      // Infinite slack and minus infinity would make a NaN.
+      const auto high =
+          hn::IfThenElse(hn::Lt(end, hn::Set(tag, -WideBvh::kNowhere)), end, hn::Add(end, filter_slack(end)));
+      hn::Store(high, tag, lane_.high + i);
+      hn::Store(high, tag, lane_.low + i);
+      hn::Store(hn::Set(tag, INFINITY), tag, lane_.doubt + i);
+      hn::Store(hn::Set(int_tag, kNone), int_tag, lane_.body + i);
+    }
+  }
+
+  // Whether the rays go nearly the same way; else they are better walked one by one.
+  bool is_coherent() const {
+    constexpr float kLeastCosine = 0.9f;
+    const LaneTag tag;
+    const auto first = [&](int axis) HWY_ATTR { return hn::Set(tag, rays_.direction[axis][0]); };
+    const auto all = [&](int axis, size_t i) HWY_ATTR { return hn::Load(tag, rays_.direction[axis] + i); };
+    bool is_near = true;
+    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+      const auto cosine =
+          hn::MulAdd(first(0), all(0, i), hn::MulAdd(first(1), all(1, i), hn::Mul(first(2), all(2, i))));
+      is_near &= hn::AllTrue(tag, hn::Ge(cosine, hn::Set(tag, kLeastCosine)));
+    }
+    return is_near && rays_.is_sound;
+  }
+
+  // The lanes that are still undecided, as bits. REQUIRES: is_coherent().
+  uint32_t run() {
+    const uint32_t all = (1u << input_.size()) - 1;
+    for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
+    walk();
+    uint32_t undecided = 0, of_meshes = 0;
+    for (size_t i = 0; i < input_.size(); ++i) {
+      const bool is_undecided = lane_.doubt[i] < INFINITY && lane_.doubt[i] <= lane_.high[i];
+      undecided |= static_cast<uint32_t>(is_undecided) << i;
+      if (kAnyHit || is_undecided || lane_.body[i] == kNone) continue;
+      of_meshes |= static_cast<uint32_t>(scene_.bodies[lane_.body[i]].kind == BodyKind::mesh) << i;
+    }
+    if (kAnyHit) return undecided;
+    if (Triangles::kInDouble) {
+      finish(of_meshes);
+    } else {
+      for (int i = 0; i < kPacketRays; ++i) t_[i] = rays_.shift[i] + lane_.high[i];
+    }
+    return undecided;
+  }
+
+  // Of a decided lane.
+  Hit hit(size_t lane) const {
+    if (lane_.body[lane] == kNone) return {input_[lane].t_max, kNone, 0, 0.0, 0.0};
+    return {t_[lane], lane_.body[lane], lane_.prim[lane], b0_[lane], b1_[lane]};
+  }
+  bool is_blocked(size_t lane) const { return lane_.body[lane] != kNone; }
+
+ private:
+  void walk() {
+    struct Entry {
+      uint32_t node, lanes;
+      float t;
+    };
+    const TriangleTree& tree = scene_.tree;
+    if (tree.nodes.empty()) return;
+    Entry stack[kStackSize];
+    int top = 1;
+    stack[0] = {0, 0xFFFFu, rays_.t_least};
+    float t_most = greatest_of(lane_.high);
+    while (top > 0) {
+      const Entry e = stack[--top];
+      if (e.t > t_most) continue;
+      if (e.node & WideBvh::kLeafBit) {
+        const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
+        if (leaf & TriangleTree::kBodyBit) {
+          visit_body(leaf & ~TriangleTree::kBodyBit, e.lanes);
+        } else {
+          visit_block(tree.blocks[leaf]);
+        }
+        t_most = greatest_of(lane_.high);
+        continue;
+      }
+      const WideBvh::Node& node = tree.nodes[e.node];
+      HWY_ALIGN float entry[WideBvh::kWidth];
+      const auto plane = [&](int side, int axis, size_t i)
+                             HWY_ATTR { return hn::Load(FloatTag(), node.bounds[side][axis] + i); };
+      const int first = top;
+      for (uint32_t boxes = boxes_met(rays_, plane, t_most, entry); boxes != 0; boxes &= boxes - 1) {
+        const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(boxes);
+        const uint32_t lanes = lanes_met(rays_, node, c, lane_.high);
+        if (lanes == 0) continue;
+        const Entry met{node.child[c], lanes, entry[c]};
+        prefetch(tree, met.node);
+        int place = top++;
+        for (; place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
+        stack[place] = met;
+      }
+    }
+  }
+
+  // The rays in the space of a mesh. The last two are kept: a packet seldom sees more.
+  const MeshLanes& inside(uint32_t index) {
+    if (inside_[0].body != index) {
+      std::swap(inside_[0], inside_[1]);
+      if (inside_[0].body != index) inside_[0].set(index, scene_.bodies[index], origin_, direction_);
+    }
+    return inside_[0];
+  }
+
+  // The hits with the triangles that were found.
+  void finish(uint32_t lanes) {
+    while (lanes != 0) {
+      const uint32_t index = lane_.body[hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes)];
+      const CompiledMesh& mesh = *scene_.bodies[index].mesh;
+      const MeshLanes& in = inside(index);
+      alignas(64) double vertex[3][3][kPacketRays];
+      uint32_t same = 0;
+      for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
+        if (lane_.body[i] != index) continue;
+        same |= 1u << i;
+        const auto& triangle = mesh.triangles[lane_.prim[i]];
+        for (size_t v = 0; v < 3; ++v) {
+          const Vec3& p = mesh.positions[triangle[v]];
+          for (int axis = 0; axis < 3; ++axis) vertex[v][axis][i] = p[axis];
+        }
+      }
+      ExactHits hits;
+      in.meet([&](int v, int axis, size_t i) HWY_ATTR { return hn::Load(DoubleTag(), vertex[v][axis] + i); }, hits);
+      lanes &= ~same;
+      for (; same != 0; same &= same - 1) {
+        const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(same);
+        if (!(in.alike >> i & 1)) {
+          const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
+          Hit hit;
+          (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
+          t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
+        } else {
+          t_[i] = hits.t[i], b0_[i] = hits.b0[i], b1_[i] = hits.b1[i];
+        }
+      }
+    }
+  }
+
+  // A hit beyond the walk's reach of triangles, at t: the best of its lane if it is nearer beyond doubt.
+  void offer(int i, uint32_t body, uint32_t prim, double t, double b0, double b1) {
+    const auto at = static_cast<float>(t - rays_.shift[i]);
+    if (kAnyHit) {
+      if (t < input_[static_cast<size_t>(i)].t_max) block(i, body);
+      return;
+    }
+    const float off = rays_.tie[i] + 0x1p-22f * (1.0f + std::abs(at));
+    if (at + off < lane_.high[i]) {
+      lane_.doubt[i] = std::min(lane_.doubt[i], lane_.low[i]);
+      lane_.low[i] = at - off, lane_.high[i] = at + off;
+      lane_.body[i] = body, lane_.prim[i] = prim;
+      t_[i] = t, b0_[i] = b0, b1_[i] = b1;
+    } else {
+      lane_.doubt[i] = std::min(lane_.doubt[i], at - off);
+    }
+  }
+  void block(int lane, uint32_t body) {
+    lane_.body[lane] = body;
+    lane_.high[lane] = -INFINITY;
+  }
+
+  void visit_body(uint32_t index, uint32_t lanes) {
+    if (scene_.bodies[index].kind != BodyKind::mesh) return visit_solid(index, lanes);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      if (lane_.high[i] == -INFINITY) continue;
+      const Hit hit = Walk<kAnyHit>(scene_, input_[static_cast<size_t>(i)]).run_body(index);
+      if (!hit.is_hit()) continue;
+      if (kAnyHit) {
+        block(i, index);
+      } else {
+        offer(i, index, hit.prim, hit.t, hit.b0, hit.b1);
+      }
+    }
+  }
+
+  void visit_solid(uint32_t index, uint32_t lanes) {
+    const CompiledBody& body = scene_.bodies[index];
+    LocalLanes local;
+    LaneSpans spans;
+    transform_lanes(body.local_from_world, origin_, direction_, local);
+    if (body.kind == BodyKind::sphere) sphere_spans(local, spans);
+    if (body.kind == BodyKind::plane) plane_spans(local, spans);
+    if (body.kind == BodyKind::box) box_spans(body.half, local, spans);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const double near = spans.near[i], far = spans.far[i], reach = reach_[i];
+      double t = near;
+      uint32_t prim = spans.near_prim[i];
+      // Beyond `reach` the sign of t tells what lies ahead; within it, and on the body that the ray has left, the ray
+      // does.
+      bool is_told = lane_.left_body[i] != index && (near > reach || near < -reach);
+      if (is_told && near < 0.0) {
+        if (far < -reach) continue;
+        t = far, prim = spans.far_prim[i];
+        is_told = far > reach;
+      }
+      if (!is_told && !Walk<kAnyHit>(scene_, input_[static_cast<size_t>(i)]).meet_solid(index, t, prim)) continue;
+      offer(i, index, prim, t, 0.0, 0.0);
+    }
+  }
+
+  HWY_INLINE void visit_block(const TriangleBlock& block) {
+    HWY_ALIGN float entry[8];
+    const auto plane = [&](int side, int axis, size_t i) HWY_ATTR {
+      const FloatTag tag;
+      const auto a = hn::Load(tag, block.vertex[0][axis] + i), b = hn::Load(tag, block.vertex[1][axis] + i),
+                 c = hn::Load(tag, block.vertex[2][axis] + i);
+      return side ? hn::Add(hn::Max(a, hn::Max(b, c)), hn::Set(tag, WideBvh::kWiden))
+                  : hn::Sub(hn::Min(a, hn::Min(b, c)), hn::Set(tag, WideBvh::kWiden));
+    };
+    const float t_most = greatest_of(lane_.high);
+    for (uint32_t met = boxes_met(rays_, plane, t_most, entry); met != 0; met &= met - 1) {
+      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
+      const uint32_t unsure = Triangles::visit(block, k, rays_, has_left_, lane_);
+      if (unsure != 0) decide(block.body[k], block.prim[k], unsure);
+    }
+  }
+
+  // In double, which rays meet a triangle, and where.
+  void decide(uint32_t body, uint32_t prim, uint32_t lanes) {
+    const CompiledMesh& mesh = *scene_.bodies[body].mesh;
+    const MeshLanes& in = inside(body);
+    const auto& triangle = mesh.triangles[prim];
+    const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
+    ExactHits hits;
+    const uint32_t met =
+        in.meet([&](int v, int axis, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][axis]); }, hits);
+    for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
+      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
+      if (!(in.alike >> i & 1) || !(hit.t > reach_[i])) {
+        const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
+        if (!walk.meet_triangle(walk.inside(body), prim, hit)) continue;
+      }
+      offer(i, body, prim, hit.t, hit.b0, hit.b1);
+    }
+  }
+
+  const CompiledScene& scene_;
+  std::span<const BoundedRay> input_;
+  PacketRays rays_;
+  LaneHits lane_;
+  bool has_left_ = false;
+  alignas(64) double origin_[3][kPacketRays], direction_[3][kPacketRays], reach_[kPacketRays];
+  alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
+  MeshLanes inside_[2];
+};
+
+// All rays, a packet of neighbours at a time: take(ray, packet, lane) for what a packet has decided, ask(ray) for the
+// rest. Packet: a PacketWalk.
+template <class Packet, class Take, class Ask>
+HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const BoundedRay> rays, const Take& take,
+                              const Ask& ask) {
+  constexpr size_t kFewRays = 5;  // fewer are better walked one by one
+  Packet packet(scene);
+  for (size_t first = 0; first < rays.size(); first += kPacketRays) {
+    const auto some = rays.subspan(first, std::min<size_t>(kPacketRays, rays.size() - first));
+    uint32_t undecided = ~0u;
+    if (some.size() >= kFewRays) {
+      packet.take(some);
+      if (packet.is_coherent()) {
+        undecided = packet.run();
+        for (size_t i = 0; i < some.size(); ++i)
+          if (!(undecided >> i & 1)) take(first + i, packet, i);
+      }
+    }
+    for (size_t i = 0; i < some.size(); ++i)
+      if (undecided >> i & 1) ask(first + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tilelight
+HWY_AFTER_NAMESPACE();
+
+#endif

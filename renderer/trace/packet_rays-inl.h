@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sixteen rays side by side in float, as the filter of packets sees them, and which boxes they meet: all together, by
+// the intervals of their origins and directions, and then by lane. Included once for every instruction set.
+#if defined(TILELIGHT_PACKET_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TILELIGHT_PACKET_RAYS_INL_H
+#undef TILELIGHT_PACKET_RAYS_INL_H
+#else
+#define TILELIGHT_PACKET_RAYS_INL_H
+#endif
+
+#include "renderer/trace/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tilelight {
+namespace HWY_NAMESPACE {
+
+using LaneTag = hn::CappedTag<float, kPacketRays>;
+using LaneIntTag = hn::RebindToUnsigned<LaneTag>;
+
+HWY_INLINE float least_of(const float* lanes) {
+  const LaneTag tag;
+  auto least = hn::Load(tag, lanes);
+  for (size_t i = hn::MaxLanes(tag); i < kPacketRays; i += hn::MaxLanes(tag))
+    least = hn::Min(least, hn::Load(tag, lanes + i));
+  return hn::GetLane(hn::MinOfLanes(tag, least));
+}
+HWY_INLINE float greatest_of(const float* lanes) {
+  const LaneTag tag;
+  auto greatest = hn::Load(tag, lanes);
+  for (size_t i = hn::MaxLanes(tag); i < kPacketRays; i += hn::MaxLanes(tag))
+    greatest = hn::Max(greatest, hn::Load(tag, lanes + i));
+  return hn::GetLane(hn::MaxOfLanes(tag, greatest));
+}
+
+// The rays in the world, as FilterRay has one; t counts from the moved origins. Lanes beyond the last ray repeat the
+// first.
+struct PacketRays {
+  alignas(64) float origin[3][kPacketRays], direction[3][kPacketRays], inverse[3][kPacketRays];
+  alignas(64) float t_min[kPacketRays], tie[kPacketRays];  // tie: how far apart hits are that may be in one place
+  alignas(64) float slope[2][kPacketRays];                 // of the sheared planes, along kx and ky
+  alignas(64) double shift[kPacketRays];
+  alignas(64) float near_shift[kPacketRays];  // the same, rounded
+  // Over all lanes, by axis. is_mixed: some directions go up and some down.
+  float origin_low[3], origin_high[3], slope_low[3], slope_high[3], direction_most[3];  // slope: 1 / |direction|
+  bool is_mixed[3];
+  int near_side[3];  // where not mixed. 0: enters by the lower plane
+  float t_least;
+  int kx = 0, ky = 1, kz = 2;
+  float slack = 0.0f;    // points in the sheared plane are off by less
+  bool is_sound = true;  // every ray runs along axis kz by half its length, from an origin that is not too far away
+};
+
+// Of 1 / d, finite also for d = 0.
+HWY_INLINE hn::Vec<LaneTag> inverse_of(hn::Vec<LaneTag> d) {
+  const LaneTag tag;
+  const auto tiny = hn::CopySign(hn::Set(tag, kTinySlope), d);
+  return hn::Div(hn::Set(tag, 1.0f), hn::IfThenElse(hn::Lt(hn::Abs(d), hn::Abs(tiny)), tiny, d));
+}
+// Where t is rounded to a float.
+HWY_INLINE hn::Vec<LaneTag> filter_slack(hn::Vec<LaneTag> t) {
+  const LaneTag tag;
+  return hn::Mul(hn::Set(tag, kFilterSlack), hn::Add(hn::Set(tag, 1.0f), hn::Abs(t)));
+}
+
+HWY_INLINE void make_packet(const double (&origin)[3][kPacketRays], const double (&direction)[3][kPacketRays],
+                            const float (&reach)[kPacketRays], PacketRays& out) {
+  constexpr double kFarthest = 0x1p16;
+  const DoubleTag wide;
+  const hn::Rebind<float, DoubleTag> narrow;
+  auto farthest = hn::Zero(wide);
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(wide)) {
+    const auto x = hn::Load(wide, origin[0] + i), y = hn::Load(wide, origin[1] + i), z = hn::Load(wide, origin[2] + i);
+    const auto dx = hn::Load(wide, direction[0] + i), dy = hn::Load(wide, direction[1] + i),
+               dz = hn::Load(wide, direction[2] + i);
+    const auto along = hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
+    const auto square = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const auto shift = hn::IfThenElseZero(hn::Gt(square, hn::Set(wide, kNearOrigin2)), hn::Neg(along));
+    farthest = hn::Max(farthest, square);
+    hn::Store(shift, wide, out.shift + i);
+    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dx, x)), narrow, out.origin[0] + i);
+    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dy, y)), narrow, out.origin[1] + i);
+    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dz, z)), narrow, out.origin[2] + i);
+    hn::Store(hn::DemoteTo(narrow, dx), narrow, out.direction[0] + i);
+    hn::Store(hn::DemoteTo(narrow, dy), narrow, out.direction[1] + i);
+    hn::Store(hn::DemoteTo(narrow, dz), narrow, out.direction[2] + i);
+    hn::Store(hn::DemoteTo(narrow, shift), narrow, out.near_shift + i);
+  }
+  const LaneTag tag;
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    for (int axis = 0; axis < 3; ++axis)
+      hn::Store(inverse_of(hn::Load(tag, out.direction[axis] + i)), tag, out.inverse[axis] + i);
+    const auto shift = hn::Load(tag, out.near_shift + i);
+    const auto start = hn::Neg(hn::Add(hn::Load(tag, reach + i), shift));
+    hn::Store(hn::Sub(start, filter_slack(start)), tag, out.t_min + i);
+    const auto tie = hn::Mul(hn::Set(tag, 0x1p-24f), hn::Add(hn::Set(tag, 1.0f), hn::Abs(shift)));
+    hn::Store(hn::Add(tie, hn::Set(tag, 0x1p-21f)), tag, out.tie + i);
+  }
+  float most = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float d_low = least_of(out.direction[axis]), d_high = greatest_of(out.direction[axis]);
+    out.origin_low[axis] = least_of(out.origin[axis]), out.origin_high[axis] = greatest_of(out.origin[axis]);
+    out.is_mixed[axis] = !(d_low > kTinySlope || d_high < -kTinySlope);
+    out.near_side[axis] = d_high < 0.0f;
+    const float weakest = out.is_mixed[axis] ? 0.0f : std::min(std::abs(d_low), std::abs(d_high));
+    out.direction_most[axis] = std::max(std::abs(d_low), std::abs(d_high));
+    // Quotients are rounded alike here and by lane.
+    out.slope_low[axis] = 1.0f / out.direction_most[axis], out.slope_high[axis] = 1.0f / weakest;
+    if (weakest > most) most = weakest, out.kz = axis;
+  }
+  out.is_sound = most >= 0.5f && hn::GetLane(hn::MaxOfLanes(wide, farthest)) < kFarthest * kFarthest;
+  out.kx = (out.kz + 1) % 3, out.ky = (out.kz + 2) % 3;
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    const auto inverse = hn::Load(tag, out.inverse[out.kz] + i);
+    hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
+    hn::Store(hn::Mul(hn::Load(tag, out.direction[out.ky] + i), inverse), tag, out.slope[1] + i);
+  }
+  const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / std::max(most, 0.5f);
+  out.slack = kSheared * std::max(1.0f, slope);  // what is rounded before it is sheared grows with the slope
+  out.t_least = least_of(out.t_min);
+}
+
+using BoxVec = hn::Vec<FloatTag>;
+
+// Which of eight boxes some ray may meet between t_least and t_most, as bits; entry: not before which t.
+// plane(side, axis, i): the boxes' lower or upper planes from the i-th box on.
+template <class Plane>
+HWY_INLINE uint32_t boxes_met(const PacketRays& rays, const Plane& plane, float t_most, float* entry) {
+  const FloatTag tag;
+  uint32_t mask = 0;
+  for (size_t i = 0; i < WideBvh::kWidth; i += hn::MaxLanes(tag)) {
+    BoxVec near = hn::Set(tag, rays.t_least), far = hn::Set(tag, t_most);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (rays.is_mixed[axis]) continue;
+      const int side = rays.near_side[axis];
+      const BoxVec low = hn::Set(tag, rays.origin_low[axis]), high = hn::Set(tag, rays.origin_high[axis]);
+      const BoxVec slow = hn::Set(tag, rays.slope_low[axis]), fast = hn::Set(tag, rays.slope_high[axis]);
+      // How far the planes are along the axis, the way the rays go.
+      const BoxVec first = plane(side, axis, i), last = plane(1 - side, axis, i);
+      const BoxVec to_first = side ? hn::Sub(low, first) : hn::Sub(first, high);
+      const BoxVec to_last = side ? hn::Sub(high, last) : hn::Sub(last, low);
+      near = hn::Max(near, hn::Min(hn::Mul(to_first, slow), hn::Mul(to_first, fast)));
+      far = hn::Min(far, hn::Max(hn::Mul(to_last, slow), hn::Mul(to_last, fast)));
+    }
+    auto met = hn::Le(near, far);
+    // Where rays go both ways along an axis, by how far they get along it.
+    const BoxVec most = hn::Max(hn::Abs(near), hn::Abs(far));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!rays.is_mixed[axis]) continue;
+      const BoxVec reach = hn::Mul(most, hn::Set(tag, rays.direction_most[axis]));
+      met = hn::And(met, hn::Le(hn::Sub(plane(0, axis, i), reach), hn::Set(tag, rays.origin_high[axis])));
+      met = hn::And(met, hn::Ge(hn::Add(plane(1, axis, i), reach), hn::Set(tag, rays.origin_low[axis])));
+    }
+    hn::Store(near, tag, entry + i);
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, met, bits);
+    mask |= static_cast<uint32_t>(bits[0]) << i;
+  }
+  return mask;
+}
+
+template <class Mask>
+HWY_INLINE uint32_t lane_bits(Mask mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(LaneTag(), mask, bits);
+  return bits[0] | static_cast<uint32_t>(bits[1]) << 8;
+}
+
+// The lanes that meet the c-th box of a node, as bits.
+HWY_INLINE uint32_t lanes_met(const PacketRays& rays, const WideBvh::Node& node, int c, const float* t_max) {
+  const LaneTag tag;
+  uint32_t lanes = 0;
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    auto near = hn::Load(tag, rays.t_min + i), far = hn::Load(tag, t_max + i);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto origin = hn::Load(tag, rays.origin[axis] + i), inverse = hn::Load(tag, rays.inverse[axis] + i);
+      const int side = rays.is_mixed[axis] ? 0 : rays.near_side[axis];
+      auto a = hn::Mul(hn::Sub(hn::Set(tag, node.bounds[side][axis][c]), origin), inverse);
+      auto b = hn::Mul(hn::Sub(hn::Set(tag, node.bounds[1 - side][axis][c]), origin), inverse);
+      if (rays.is_mixed[axis]) {
+        const auto lesser = hn::Min(a, b);
+        b = hn::Max(a, b), a = lesser;
+      }
+      near = hn::Max(near, a);
+      far = hn::Min(far, b);
+    }
+    lanes |= lane_bits(hn::Le(near, far)) << i;
+  }
+  return lanes;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tilelight
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/peers.h"
+
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/embree_rays.h"
+#include "tests/bench/timing.h"
+#include "tests/bench/waves.h"
+
+namespace tilelight::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What one kind of frame took, s, round by round.
+struct Times {
+  std::vector<double> frame, traced, single, packets, stream;
+
+  // The best of Embree's modes that take many rays.
+  std::vector<double> best() const { return median(packets) < median(stream) ? packets : stream; }
+};
+
+std::vector<std::vector<Hit>> hits_of(const CompiledScene& scene, const Wave& wave) {
+  std::vector<std::vector<Hit>> all;
+  for (const Batch& batch : wave.batches) {
+    all.emplace_back(batch.size());
+    trace_closest(scene, batch, all.back());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string compare_with_embree(const std::string& name, const std::string& document, TilePool& pool, int rounds,
+                                bool robust) {
+  const ParsedScene parsed = parse_scene(document, Limits{}).value();
+  std::shared_ptr<const CompiledScene> scene;
+  const double compile_s = seconds_of([&] { scene = compile_scene(parsed.scene, pool); });
+  const ViewPlan plan = plan_view(*scene, parsed.view);
+  const EmbreeTracer embree(*scene, pool.thread_count(), robust);
+  std::printf(
+      "\n%s: %lld triangles; compiled in %.0f ms, Embree's tree alone (medium, %.1f bytes a triangle) in %.0f ms\n",
+      name.c_str(), static_cast<long long>(plan.plan.triangles_instanced), 1e3 * compile_s,
+      static_cast<double>(embree.memory_bytes()) / static_cast<double>(plan.plan.triangles_instanced),
+      embree.build_ms());
+  std::printf("%-16s %9s %9s %9s %9s %9s   %-18s %-18s %s\n", "", "frame ms", "traced", "E1", "packets", "stream",
+              "frame, EB/ours", "traced, EB/ours", "other hits");
+  struct Kind {
+    const char* name;
+    FrameSpec spec;
+  };
+  Json rows = Json::array();
+  for (const Kind& kind : {Kind{"primary", {0, 0}}, Kind{"+ 1 shadow", {0, 1}}, Kind{"Whitted", {3, 2}}}) {
+    const std::vector<Wave> waves = waves_of(*scene, plan, kind.spec, pool);
+    const std::array jobs = {embree.prepare(waves, EmbreeMode::single), embree.prepare(waves, EmbreeMode::packets),
+                             embree.prepare(waves, EmbreeMode::stream)};
+    Times times;
+    for (int round = 0; round < rounds; ++round) {
+      times.frame.push_back(seconds_of([&] { (void)shade_frame(*scene, plan, kind.spec, pool); }));
+      times.traced.push_back(seconds_of([&] { trace_waves(*scene, waves, pool); }));
+      times.single.push_back(embree.run(*jobs[0], pool));
+      times.packets.push_back(embree.run(*jobs[1], pool));
+      times.stream.push_back(embree.run(*jobs[2], pool));
+    }
+    // Their frame: our shading around their tracing.
+    const std::vector<double> best = times.best();
+    std::vector<double> their_frame;
+    for (size_t i = 0; i < best.size(); ++i) their_frame.push_back(times.frame[i] - times.traced[i] + best[i]);
+    const Ratio whole = ratio_of(their_frame, times.frame), traced = ratio_of(best, times.traced);
+    const double others = embree.differing(*jobs[1], hits_of(*scene, waves[0]));
+    const auto ms = [](const std::vector<double>& s) { return 1e3 * median(s); };
+    std::printf("%-16s %9.1f %9.1f %9.1f %9.1f %9.1f   %.2f (%.2f - %.2f) %.2f (%.2f - %.2f)  %.4f%%\n", kind.name,
+                ms(times.frame), ms(times.traced), ms(times.single), ms(times.packets), ms(times.stream), whole.middle,
+                whole.least, whole.most, traced.middle, traced.least, traced.most, others);
+    for (const Wave& wave : waves) {
+      std::printf("    depth %d %-8s %8.2f Mrays\n", wave.depth, wave.any_hit ? "shadow" : "closest",
+                  1e-6 * static_cast<double>(wave.rays()));
+    }
+    rows.push_back({{"frame", kind.name},
+                    {"frame_ms", ms(times.frame)},
+                    {"traced_ms", ms(times.traced)},
+                    {"embree_single_ms", ms(times.single)},
+                    {"embree_packets_ms", ms(times.packets)},
+                    {"embree_stream_ms", ms(times.stream)},
+                    {"frame_ratio", {whole.least, whole.middle, whole.most}},
+                    {"traced_ratio", {traced.least, traced.middle, traced.most}}});
+  }
+  return Json{{"scene", name}, {"triangles", plan.plan.triangles_instanced}, {"rows", rows}}.dump();
+}
+
+}  // namespace tilelight::bench
