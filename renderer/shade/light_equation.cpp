@@ -23,13 +23,27 @@ double attenuation_factor(const CompiledScene& scene, double distance) {
   return 1.0;
 }
 
+// x^n by squares of x, for a whole n of 0 to kMostProducts: off by n roundings.
+constexpr double kMostProducts = 128.0;
+double power_by_products(double x, int n) {
+  double out = 1.0;
+  for (double square = x; n > 0; n /= 2, square *= square) {
+    if (n % 2 == 1) out *= square;
+  }
+  return out;
+}
+
 }  // namespace
 
 double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess) {
   if (!(glm::dot(mirrored, to_viewer) > 0.0)) return 0.0;
   const Vec3 apart = mirrored - to_viewer;
-  const double exponent = shininess * elementary::log1p(-0.5 * glm::dot(apart, apart));
-  constexpr double kInvisible = -60.0;  // e^-60 of any displayable light is nothing
+  const double fall = -0.5 * glm::dot(apart, apart);
+  constexpr double kInvisible = -60.0;            // e^-60 of any displayable light is nothing
+  if (shininess * fall < kInvisible) return 0.0;  // log1p(x) <= x
+  if (shininess <= kMostProducts && shininess == std::floor(shininess))
+    return power_by_products(1.0 + fall, static_cast<int>(shininess));
+  const double exponent = shininess * elementary::log1p(fall);
   return exponent < kInvisible ? 0.0 : elementary::exp(exponent);
 }
 

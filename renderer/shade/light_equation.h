@@ -11,8 +11,8 @@
 
 namespace tilelight {
 
-// max(0, R.V)^n for unit R and V: exp(n * log1p(-|R-V|^2 / 2)), which keeps the digits that pow(dot, n) loses for large
-// n. 0 where R.V <= 0, also for n = 0.
+// max(0, R.V)^n for unit R and V, where R.V is 1 - |R-V|^2 / 2: exp(n * log1p(-|R-V|^2 / 2)) keeps the digits that
+// pow(dot, n) loses for large n; a small whole n is a few products. 0 where R.V <= 0, also for n = 0.
 double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess);
 
 // What a light brings to a point of a surface before it is known whether something stands between.
