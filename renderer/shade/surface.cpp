@@ -11,8 +11,9 @@ namespace {
 
 struct LocalPoint {
   Vec3 position{0.0};
-  Vec3 geometric{0.0};  // outward, any length
-  Vec3 shading{0.0};    // outward, any length
+  Vec3 geometric{0.0};     // outward, any length
+  Vec3 shading{0.0};       // the same, where it is not the geometric one
+  bool is_smooth = false;  // it is not
 };
 
 LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
@@ -22,12 +23,10 @@ LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
   LocalPoint out;
   out.position = hit.b0 * a + hit.b1 * b + b2 * c;
   out.geometric = cross_of(b - a, c - a);
-  if (mesh.corner_normals.empty()) {
-    out.shading = out.geometric;
-  } else {
+  if (!mesh.corner_normals.empty()) {
     const auto& n = mesh.corner_normals[hit.prim];
     out.shading = hit.b0 * mesh.normals[n[0]] + hit.b1 * mesh.normals[n[1]] + b2 * mesh.normals[n[2]];
-    if (out.shading == Vec3(0.0)) out.shading = out.geometric;  // opposite normals cancel
+    out.is_smooth = out.shading != Vec3(0.0);  // opposite normals cancel
   }
   return out;
 }
@@ -58,7 +57,6 @@ LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit)
     case BodyKind::mesh:
       break;
   }
-  out.shading = out.geometric;
   return out;
 }
 
@@ -97,7 +95,7 @@ Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit)
   out.here = {hit.body, hit.prim};
   out.position = transform_point(body.world_from_local, local.position);
   out.geometric_normal = unit_of(body.world_from_normal * local.geometric);
-  out.normal = unit_of(body.world_from_normal * local.shading);
+  out.normal = local.is_smooth ? unit_of(body.world_from_normal * local.shading) : out.geometric_normal;
   out.is_rounded = body.kind == BodyKind::mesh && !body.mesh->corner_normals.empty();
   out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
   if (!out.from_outside) out.geometric_normal = -out.geometric_normal;

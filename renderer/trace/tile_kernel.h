@@ -66,7 +66,13 @@ class TileKernel {
     std::vector<BoundedRay> rays;
     std::vector<Path> paths;
     void clear() { rays.clear(), paths.clear(); }
-    void push(const Ray& ray, const Path& path) { rays.push_back({ray}), paths.push_back(path); }
+    void push(const Vec3& origin, const Vec3& direction, const Departure& left, Coincident coincident,
+              const Path& path) {
+      Ray& ray = rays.emplace_back().ray;
+      ray.origin = origin, ray.direction = direction;
+      ray.left = left, ray.coincident = coincident;
+      paths.push_back(path);
+    }
   };
   // What a light brings to a sample if nothing stands between.
   struct Pending {
@@ -168,7 +174,8 @@ class TileKernel {
     for_each_pixel(y0, y1, [&](int x, int y) {
       const SamplePoint p = sample_point(x, y, spec_.seed, index);
       const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
-      primary.push({ray.origin, ray.direction, {}}, {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
+      primary.push(ray.origin, ray.direction, {}, Coincident::none,
+                   {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
     });
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
@@ -217,12 +224,12 @@ class TileKernel {
       Color seen(0.0);
       if (sample.is_lit) {
         const Color arriving = path.weight * (sample.diffuse + sample.specular);
-        const BoundedRay shadow = shadow_ray(source, sample, surface, start);
         seen = Color(1.0);
         if (!(kCan.shadows && source.shadow && spec_.shadows)) {
           radiance_[path.sample] += arriving;
         } else if (arriving != Color(0.0)) {
-          beams_[i].rays.push_back(shadow);
+          BoundedRay& shadow = beams_[i].rays.emplace_back();
+          aim(shadow, source, sample, surface, start);
           beams_[i].pending.push_back(static_cast<uint32_t>(pending_.size()));
           pending_.push_back({arriving, path.sample});
           if constexpr (kCan.listens) seen = visible_along(shadow);
@@ -232,10 +239,10 @@ class TileKernel {
     }
   }
 
-  // From `start`, the surface's place or, where it is rounded, somewhat above it. A surface that the light itself lies
-  // on does not hide it: the ray ends before, by the rounding of the distance.
-  static BoundedRay shadow_ray(const CompiledLight& source, const LightSample& sample, const Surface& surface,
-                               const Vec3& start) {
+  // A shadow ray from `start`, the surface's place or, where it is rounded, somewhat above it. A surface that the light
+  // itself lies on does not hide it: the ray ends before, by the rounding of the distance.
+  static void aim(BoundedRay& shadow, const CompiledLight& source, const LightSample& sample, const Surface& surface,
+                  const Vec3& start) {
     Vec3 to_light = sample.to_light;
     double distance = sample.distance;
     if (source.kind == LightKind::point && start != surface.position && start != source.position) {
@@ -243,7 +250,9 @@ class TileKernel {
       distance = glm::length(to_light);
       to_light /= distance;
     }
-    return {{start, to_light, surface.here, Coincident::before}, distance * (1.0 - 0x1p-40)};
+    shadow.ray.origin = start, shadow.ray.direction = to_light;
+    shadow.ray.left = surface.here, shadow.ray.coincident = Coincident::before;
+    shadow.t_max = distance * (1.0 - 0x1p-40);
   }
 
   // Sets visible_ of what the beam decides, by channel: 0 behind something opaque, else the product of kt of the
@@ -346,7 +355,7 @@ class TileKernel {
       return false;
     }
     ++spent_[path.sample];
-    next_->push({surface.position, direction, surface.here, coincident},
+    next_->push(surface.position, direction, surface.here, coincident,
                 {weight, path.sample, media, path.depth + 1, kind});
     return true;
   }
