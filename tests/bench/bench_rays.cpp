@@ -21,6 +21,7 @@
 #include "renderer/trace/trace_rays.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/naive_rays.h"
+#include "tests/bench/textbook.h"
 #include "tests/bench/timing.h"
 #if TILELIGHT_WITH_EMBREE
 #include "tests/bench/peers.h"
@@ -253,33 +254,48 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "Threads; 0: one a core")->check(CLI::Range(0, 1024))->capture_default_str();
   bool robustness = false;
   app.add_flag("--robustness", robustness, "What exactness costs: beside float kernels without the care for numbers");
-  std::string peer, scenes = "sml";
+  std::string peer, baseline, json_path, scenes = "sml";
   bool robust_peer = false;
   app.add_option("--peer", peer, "Beside another tracer, on the bench scenes: embree")
       ->check(CLI::IsMember({"embree"}));
+  app.add_option("--baseline", baseline, "Beside the way of the textbooks, on the bench scenes: textbook")
+      ->check(CLI::IsMember({"textbook"}))
+      ->excludes("--peer");
   app.add_option("--scenes", scenes, "Which of them: s, m, l (63,000, 670,000, 6.6 million triangles)")
       ->capture_default_str();
   app.add_flag("--robust-peer", robust_peer, "Embree's robust mode");
+  app.add_option("--json", json_path, "Also write the figures of --peer or --baseline to a file, one scene a line");
   CLI11_PARSE(app, argc, argv);
+#if !TILELIGHT_WITH_EMBREE
   if (!peer.empty()) {
-#if TILELIGHT_WITH_EMBREE
-    using namespace tilelight;
-    TilePool pool(threads);
-    // From a thread of the pool, so that a loop over tiles has no more threads than that.
-    return pool
-        .submit(Priority::normal,
-                [&] {
-                  for (const char size : scenes) {
-                    bench::compare_with_embree(std::string(1, size), bench::bench_scene(bench::detail_of(size)), pool,
-                                               rounds, robust_peer);
-                  }
-                  return 0;
-                })
-        .get();
-#else
     std::fprintf(stderr, "bench_rays: built without Embree; install libembree-dev and configure again\n");
     return 2;
+  }
 #endif
+  if (!peer.empty() || !baseline.empty()) {
+    using namespace tilelight;
+    TilePool pool(threads);
+    std::ofstream json;
+    if (!json_path.empty()) json.open(json_path);
+    // From a thread of the pool, so that a loop over tiles has no more threads than that.
+    pool.submit(Priority::normal,
+                [&] {
+                  for (const char size : scenes) {
+                    const std::string name(1, size), document = bench::bench_scene(bench::detail_of(size));
+                    std::string figures;
+                    if (!baseline.empty()) figures = bench::compare_with_textbook(name, document, pool, rounds);
+#if TILELIGHT_WITH_EMBREE
+                    if (!peer.empty()) figures = bench::compare_with_embree(name, document, pool, rounds, robust_peer);
+#endif
+                    if (json) json << figures << "\n";
+                  }
+                })
+        .get();
+    if (!json_path.empty() && !json) {
+      std::fprintf(stderr, "bench_rays: cannot write %s\n", json_path.c_str());
+      return 1;
+    }
+    return 0;
   }
   return tilelight::run(path, rounds, threads, robustness);
 }
