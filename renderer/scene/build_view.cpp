@@ -110,8 +110,7 @@ Light build_light(Value value) {
 
 View build_view(Value root, const Limits& limits, Problems& problems) {
   View view;
-  const Value camera = root.find("camera");
-  if (camera && camera.is(JsonKind::object)) view.camera = build_camera(camera, problems);
+  if (const Value camera = find_accepted(root, "camera")) view.camera = build_camera(camera, problems);
   const Value image = root.find("image"), render = root.find("render");
   view.image = build_image(image, limits, problems);
   view.render = build_render(render, limits, problems);

@@ -64,7 +64,8 @@ bool report_newer_version(Value root, Problems& problems) {
   ParsedScene parsed;
   if (!report_newer_version(root, problems)) {
     check_document(root, scene_grammar(limits), problems);
-    if (root.is(JsonKind::object)) {
+    // A check that gave up has left values unseen, which nobody may read.
+    if (root.is(JsonKind::object) && !problems.full()) {
       parsed.scene = build_scene(root, limits, problems);
       parsed.view = build_view(root, limits, problems);
     }

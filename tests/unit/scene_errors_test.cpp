@@ -263,6 +263,23 @@ TEST(Errors, AreListedUpToABound) {
   EXPECT_EQ(errors.back().code, "too_many_errors");
 }
 
+// What was refused or never looked at is not read as if it were of the right kind: three numbers beyond the end of
+// none.
+TEST(Errors, LeaveTheRestOfWhatTheyRefuseAlone) {
+  const std::string camera = R"("camera": {"type": "pespective", "position": [1, 2, 3], "target": "x", "up": true})";
+  EXPECT_EQ(errors_of(with(camera)).size(), 1u);
+  std::string keys;
+  for (int i = 0; i < 150; ++i) keys += "\"k" + std::to_string(i) + "\": 1, ";
+  for (const char* rest :
+       {R"("camera": {"position": "x", "target": "y"})",
+        R"("lights": [{"type": "point", "color": [], "position": "x"}])",
+        R"("materials": {"default": {"diffuse": [1], "specular": {"checker": 3}}})",
+        R"("meshes": {"m": {"positions": "x", "indices": [true]}})", R"("image": [], "render": {"passes": "x"})"}) {
+    EXPECT_FALSE(errors_of(with(keys + rest)).empty()) << rest;
+  }
+  EXPECT_FALSE(errors_of("{" + keys + R"("objects": [{"type": "sphere", "center": "x", "material": []}]})").empty());
+}
+
 TEST(Errors, ShortenLongTextOnACharactersBoundary) {
   std::string name;
   for (int i = 0; i < 1000; ++i) name += "\xE2\x99\x9E";
