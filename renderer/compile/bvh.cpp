@@ -217,16 +217,17 @@ class Builder {
     return out;
   }
 
+  void add_all(Range r, Bins& bins) const {
+    for (uint32_t i = r.first; i < r.end(); ++i) bins.add(items_[i]);
+  }
   Bins bins_of(Range r, const Binning& binning) const {
     Bins bins(binning);
-    for (uint32_t i = r.first; i < r.end(); ++i) bins.add(items_[i]);
+    add_all(r, bins);
     return bins;
   }
   Bins bins_together(Range r, const Binning& binning) {
     std::vector<Bins> parts((r.count + kChunk - 1) / kChunk, Bins(binning));
-    in_chunks(r, [&](size_t c, Range part) {
-      for (uint32_t i = part.first; i < part.end(); ++i) parts[c].add(items_[i]);
-    });
+    in_chunks(r, [&](size_t c, Range part) { add_all(part, parts[c]); });
     Bins out(binning);
     for (const Bins& part : parts) out.grow(part);
     return out;

@@ -41,7 +41,7 @@ struct WideBvh {
     uint32_t first = 0, count = 0;  // a range of `order`
   };
   static constexpr float kWiden = 0x1p-19f;
-  static constexpr float kNowhere = 1e30f;
+  static constexpr float kNowhere = 1e30f;  // where the inverted box of no child lies
 
   std::vector<Node> nodes;  // [0] is the root; empty if there are no boxes
   std::vector<Leaf> leaves;

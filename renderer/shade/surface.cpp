@@ -12,8 +12,8 @@ namespace {
 struct LocalPoint {
   Vec3 position{0.0};
   Vec3 geometric{0.0};     // outward, any length
-  Vec3 shading{0.0};       // the same, where it is not the geometric one
-  bool is_smooth = false;  // it is not
+  Vec3 shading{0.0};       // outward, any length; of what is smooth alone
+  bool is_smooth = false;  // else it is shaded by its geometric normal
 };
 
 LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {

@@ -257,11 +257,11 @@ class PacketWalk {
 
   // The rays in the space of a mesh. The last two are kept: a packet seldom sees more.
   const MeshLanes& inside(uint32_t index) {
-    if (inside_[0].body != index) {
-      std::swap(inside_[0], inside_[1]);
-      if (inside_[0].body != index) inside_[0].set(index, scene_.bodies[index], origin_, direction_);
+    if (inside_[latest_].body != index) {
+      latest_ = 1 - latest_;
+      if (inside_[latest_].body != index) inside_[latest_].set(index, scene_.bodies[index], origin_, direction_);
     }
-    return inside_[0];
+    return inside_[latest_];
   }
 
   // The hits with the triangles that were found.
@@ -299,7 +299,7 @@ class PacketWalk {
     }
   }
 
-  // A hit beyond the walk's reach of triangles, at t: the best of its lane if it is nearer beyond doubt.
+  // A hit that was computed in double, at t: the best of its lane if it is nearer beyond doubt.
   void offer(int i, uint32_t body, uint32_t prim, double t, double b0, double b1) {
     const auto at = static_cast<float>(t - rays_.shift[i]);
     if (kAnyHit) {
@@ -407,6 +407,7 @@ class PacketWalk {
   alignas(64) double origin_[3][kPacketRays], direction_[3][kPacketRays], reach_[kPacketRays];
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
+  int latest_ = 0;  // which of these was asked for last
 };
 
 // All rays, a packet of neighbours at a time: take(ray, packet, lane) for what a packet has decided, ask(ray) for the

@@ -17,19 +17,22 @@ namespace HWY_NAMESPACE {
 using LaneTag = hn::CappedTag<float, kPacketRays>;
 using LaneIntTag = hn::RebindToUnsigned<LaneTag>;
 
-HWY_INLINE float least_of(const float* lanes) {
+// All lanes in one register's width, two by two through `merge`.
+template <class Merge>
+HWY_INLINE hn::Vec<LaneTag> merged_lanes(const float* lanes, const Merge& merge) {
   const LaneTag tag;
-  auto least = hn::Load(tag, lanes);
+  auto all = hn::Load(tag, lanes);
   for (size_t i = hn::MaxLanes(tag); i < kPacketRays; i += hn::MaxLanes(tag))
-    least = hn::Min(least, hn::Load(tag, lanes + i));
-  return hn::GetLane(hn::MinOfLanes(tag, least));
+    all = merge(all, hn::Load(tag, lanes + i));
+  return all;
+}
+HWY_INLINE float least_of(const float* lanes) {
+  const auto all = merged_lanes(lanes, [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); });
+  return hn::GetLane(hn::MinOfLanes(LaneTag(), all));
 }
 HWY_INLINE float greatest_of(const float* lanes) {
-  const LaneTag tag;
-  auto greatest = hn::Load(tag, lanes);
-  for (size_t i = hn::MaxLanes(tag); i < kPacketRays; i += hn::MaxLanes(tag))
-    greatest = hn::Max(greatest, hn::Load(tag, lanes + i));
-  return hn::GetLane(hn::MaxOfLanes(tag, greatest));
+  const auto all = merged_lanes(lanes, [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); });
+  return hn::GetLane(hn::MaxOfLanes(LaneTag(), all));
 }
 
 // The rays in the world, as FilterRay has one; t counts from the moved origins. Lanes beyond the last ray repeat the
