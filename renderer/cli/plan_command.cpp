@@ -51,7 +51,8 @@ std::string stop_text(const RenderSpec& render) {
   std::ostringstream out;
   if (!render.passes.empty()) return "a replay of " + std::to_string(render.passes.size()) + " passes";
   if (render.samples) out << *render.samples << " samples a pixel";
-  if (render.time_ms) out << (render.samples ? " or " : "") << *render.time_ms << " ms";
+  if (render.rmse) out << (render.samples ? " or " : "") << "an rmse of " << *render.rmse;
+  if (render.time_ms) out << (render.samples || render.rmse ? " or " : "") << *render.time_ms << " ms";
   return out.str();
 }
 

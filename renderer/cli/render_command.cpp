@@ -57,7 +57,7 @@ ExitCode write_results(const Render& render, const ViewPlan& plan, const RenderA
 }
 
 void print_summary(const RenderArguments& arguments, const ViewPlan& plan, const RenderProgress& progress) {
-  std::fprintf(stderr, "%s: %d x %d, %d samples a pixel, %.2f s (%s on %s)\n", arguments.output.c_str(),
+  std::fprintf(stderr, "%s: %d x %d, %.6g samples a pixel, %.2f s (%s on %s)\n", arguments.output.c_str(),
                plan.view.image.width, plan.view.image.height, progress.spp, progress.elapsed_ms / 1000.0,
                plan.plan.kernel.c_str(), plan.plan.isa.c_str());
 }

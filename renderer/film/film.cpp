@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/film/film.h"
 
+#include <new>
+
 namespace tilelight {
 namespace {
 
@@ -18,12 +20,41 @@ TileRect tile_rect(int index, int width, int height, int tile_px) {
   return {x0, y0, std::min(x0 + tile_px, width), std::min(y0 + tile_px, height)};
 }
 
-Image Film::resolve(int samples) const {
-  Image image{width_, height_, std::vector<float>(sums_.size())};
-  // Division, not a product with 1/samples: that would be rounded twice.
-  const float n = static_cast<float>(samples);
-  std::transform(sums_.begin(), sums_.end(), image.rgb.begin(), [n](float sum) { return sum / n; });
-  return image;
+Film::Film(int width, int height)
+    : width_(width), height_(height), samples_(static_cast<size_t>(tile_count(width, height, kCellPx))) {}
+
+void Film::grow(uint32_t samples) {
+  const size_t floats = static_cast<size_t>(width_) * height_ * 3;
+  for (uint32_t i = 0; i < std::min(samples, kSampleBlocks); ++i) {
+    if (planes_[i]) continue;
+    // The system's own zeros: a page of them is made when a thread first writes there, not here by one for all.
+    planes_[i].reset(static_cast<float*>(std::calloc(floats, sizeof(float))));
+    if (!planes_[i]) throw std::bad_alloc();
+  }
+}
+
+SamplePlanes Film::planes() const {
+  SamplePlanes out;
+  std::transform(planes_.begin(), planes_.end(), out.begin(), [](const auto& plane) { return plane.get(); });
+  return out;
+}
+
+void Film::resolve(const TileRect& part, Image& image) const {
+  const SamplePlanes from = planes();
+  for_each_cell(part, [&](const TileRect& cell) {
+    const uint32_t count = samples_[cell_at(cell.x0, cell.y0)];
+    const uint32_t blocks = count == 0 ? 0 : (count - 1) / sample_block_length(count - 1) + 1;
+    const float n = static_cast<float>(std::max(1u, count));
+    for_each_pixel(cell, [&](int x, int y) {
+      const size_t pixel = static_cast<size_t>(y) * width_ + x;
+      for (size_t i = pixel * 3; i < pixel * 3 + 3; ++i) {
+        std::array<float, kSampleBlocks> sums{};
+        for (uint32_t block = 0; block < blocks; ++block) sums[block] = from[block][i];
+        const float sum = ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+        image.rgb[i] = sum / n;  // not a product with 1/n: that would be rounded twice
+      }
+    });
+  });
 }
 
 }  // namespace tilelight

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film: the sum of the samples of every pixel, linear RGB. Work items write disjoint TileViews from many threads
-// without locks; the film adds samples in index order, so any split of the same total gives the same bytes.
+// Film: the samples of every pixel, linear RGB, in up to eight aligned blocks of each pixel's sequence. Their sum is
+// the picture, their differences tell its error (error_estimate.h). Work items write disjoint TileViews from many
+// threads without locks. What a pixel holds is a function of the samples it was given, in the order of their indices:
+// any split of the same total gives the same bytes.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 namespace tilelight {
@@ -16,21 +22,29 @@ struct TileRect {
   int64_t pixel_count() const { return static_cast<int64_t>(width()) * height(); }
 };
 
-// visit(x, y) for every pixel, in squares of 4 by 4: neighbours in this order are neighbours in the image.
-template <class Visit>
-void for_each_in_squares(const TileRect& rect, const Visit& visit) {
-  constexpr int kSquarePx = 4;
-  for (int top = rect.y0; top < rect.y1; top += kSquarePx) {
-    for (int left = rect.x0; left < rect.x1; left += kSquarePx) {
-      for (int y = top; y < std::min(top + kSquarePx, rect.y1); ++y)
-        for (int x = left; x < std::min(left + kSquarePx, rect.x1); ++x) visit(x, y);
-    }
-  }
-}
-
 // The rectangles of a grid of tiles with edge tile_px over the image, row by row. Pure.
 int tile_count(int width, int height, int tile_px);
 TileRect tile_rect(int index, int width, int height, int tile_px);
+
+// Pixels take samples by cells: squares of 4 by 4, anchored at the image's first pixel and cut at its last.
+inline constexpr int kCellPx = 4;
+
+// visit(part of a cell, a TileRect) for every cell that meets the rectangle, row by row.
+template <class Visit>
+void for_each_cell(const TileRect& rect, const Visit& visit) {
+  constexpr auto next = [](int v) { return v / kCellPx * kCellPx + kCellPx; };
+  for (int top = rect.y0; top < rect.y1; top = next(top)) {
+    for (int left = rect.x0; left < rect.x1; left = next(left))
+      visit(TileRect{left, top, std::min(next(left), rect.x1), std::min(next(top), rect.y1)});
+  }
+}
+
+// visit(x, y) for every pixel, row by row.
+template <class Visit>
+void for_each_pixel(const TileRect& rect, const Visit& visit) {
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) visit(x, y);
+}
 
 // A linear image: width * height * 3 floats, RGB, row by row from the top.
 struct Image {
@@ -38,35 +52,68 @@ struct Image {
   std::vector<float> rgb;
 };
 
+// A pixel's sequence in aligned blocks of equal length: as short as eight of them can hold it. Pure.
+inline constexpr uint32_t kSampleBlocks = 8;
+// Length of the blocks once sample `index` (from 0) is there: 1, 1, ... 1, then 2 from index 8 on, 4 from 16 on, ...
+constexpr uint32_t sample_block_length(uint32_t index) { return std::bit_ceil(index / kSampleBlocks + 1); }
+
+// By block, the first float of its plane: the sums of one block in every pixel, laid out like an Image.
+using SamplePlanes = std::array<float*, kSampleBlocks>;
+
 // A work item's own window on the film. Threads: one at a time per pixel.
 class TileView {
  public:
-  TileView(float* sums, int film_width, TileRect rect) : sums_(sums), film_width_(film_width), rect_(rect) {}
-  const TileRect& rect() const { return rect_; }
-  // REQUIRES: (x, y) inside rect(), film coordinates. Adds one sample.
-  void add(int x, int y, float r, float g, float b) {
-    float* p = sums_ + (static_cast<size_t>(y) * film_width_ + x) * 3;
+  TileView(SamplePlanes planes, int film_width) : planes_(planes), film_width_(film_width) {}
+  // REQUIRES: (x, y) in the window, film coordinates; every sample before `index` is there.
+  void add(int x, int y, uint32_t index, float r, float g, float b) {
+    const size_t at = (static_cast<size_t>(y) * film_width_ + x) * 3;
+    if (index >= kSampleBlocks && std::has_single_bit(index)) join_blocks(at);
+    float* p = planes_[index / sample_block_length(index)] + at;
     p[0] += r, p[1] += g, p[2] += b;
   }
 
  private:
-  float* sums_;
+  // Eight full blocks become four of twice the length.
+  void join_blocks(size_t at) {
+    for (size_t channel = at; channel < at + 3; ++channel) {
+      for (size_t i = 0; i < kSampleBlocks / 2; ++i)
+        planes_[i][channel] = planes_[2 * i][channel] + planes_[2 * i + 1][channel];
+      for (size_t i = kSampleBlocks / 2; i < kSampleBlocks; ++i) planes_[i][channel] = 0.0f;
+    }
+  }
+
+  SamplePlanes planes_;
   int film_width_;
-  TileRect rect_;
 };
 
 class Film {
  public:
-  Film(int width, int height) : width_(width), height_(height), sums_(static_cast<size_t>(width) * height * 3) {}
+  Film(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
-  TileView view(TileRect rect) { return TileView(sums_.data(), width_, rect); }
-  // The mean of `samples` samples a pixel. REQUIRES: samples >= 1 and no writer.
-  Image resolve(int samples) const;
+  // Room for that many samples in every pixel; memory comes as it is written. Blocks whose turn never comes cost
+  // nothing.
+  void grow(uint32_t samples);
+  TileView view() { return TileView(planes(), width_); }
+  // By cell, row by row: samples in each of its pixels. Set by the owner, after whole passes.
+  size_t cell_at(int x, int y) const {
+    return static_cast<size_t>(y / kCellPx) * ((width_ + kCellPx - 1) / kCellPx) + x / kCellPx;
+  }
+  std::vector<uint32_t>& samples() { return samples_; }
+  const std::vector<uint32_t>& samples() const { return samples_; }
+  SamplePlanes planes() const;  // null beyond what has grown
+  // Writes the mean of every pixel's samples into the image, black where there are none. Parts that share no cell may
+  // be done by many threads. REQUIRES: no writer there; an image of the film's size.
+  void resolve(const TileRect& part, Image& image) const;
 
  private:
+  struct Free {
+    void operator()(float* p) const { std::free(p); }
+  };
+
   int width_, height_;
-  std::vector<float> sums_;
+  std::array<std::unique_ptr<float[], Free>, kSampleBlocks> planes_;
+  std::vector<uint32_t> samples_;
 };
 
 }  // namespace tilelight

@@ -11,7 +11,7 @@ struct SamplePoint {
   double x, y;  // inside the pixel, [0, 1)
 };
 
-// The sequence of the pixel (x, y). The film's box filter integrates it.
+// The sequence of the pixel (x, y). Uniform over the pixel; trace/pixel_filter.h bends it to another filter.
 SamplePoint sample_point(int x, int y, uint32_t seed, uint32_t index);
 
 }  // namespace tilelight

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "renderer/base/elementary.h"
-#include "renderer/film/sampling.h"
 #include "renderer/measure/reference_bounce.h"
 #include "renderer/measure/reference_light.h"
 #include "renderer/measure/reference_media.h"
+#include "renderer/trace/pixel_filter.h"
 
 namespace tilelight {
 namespace {
@@ -247,7 +247,7 @@ std::vector<ReferencePixel> reference_image(const ReferenceScene& scene, const V
   pool.parallel_for(height, Priority::batch, [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      const SamplePoint s = sample_point(x, y, view.render.seed, 0);
+      const SamplePoint s = through_filter(view.render.filter, sample_point(x, y, view.render.seed, 0));
       pixels[static_cast<size_t>(y) * width + x] = reference_sample(scene, eye, Vec2(x + s.x, y + s.y));
     }
   });

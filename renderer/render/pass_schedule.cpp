@@ -2,33 +2,75 @@
 #include "renderer/render/pass_schedule.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <numeric>
 
+#include "renderer/base/elementary.h"
+
 namespace tilelight {
+namespace {
+
+// Before samples go where the error is, every pixel takes as many as tell its error.
+constexpr double kFirstForAll = 8.0;
+
+// Samples for each one there is, to bring the error down to `rmse`: it falls with n^-0.75 or faster.
+double growth(double error, double rmse) { return elementary::pow(error / rmse, 4.0 / 3.0); }
+
+}  // namespace
 
 PassSchedule::PassSchedule(const RenderSpec& spec)
     : replay_(spec.passes),
-      samples_(spec.passes.empty() ? spec.samples.value_or(16)
-                                   : std::min(spec.samples.value_or(std::numeric_limits<int>::max()),
-                                              std::accumulate(spec.passes.begin(), spec.passes.end(), 0))),
+      samples_(spec.samples.value_or(spec.passes.empty() ? 16 : std::numeric_limits<int>::max())),
+      adaptive_(spec.adaptive),
+      rmse_(spec.rmse.value_or(0.0)),
       time_ms_(spec.time_ms.value_or(std::numeric_limits<double>::infinity())) {}
 
-PassSchedule::Next PassSchedule::next(int passes_done, int done, double elapsed_ms, double ms_per_sample) const {
-  if (!replay_.empty()) {
-    if (passes_done >= static_cast<int>(replay_.size())) return {0, "passes"};
-    if (done >= samples_) return {0, "samples"};
-    if (done > 0 && elapsed_ms >= time_ms_) return {0, "time"};
-    return {std::min(replay_[static_cast<size_t>(passes_done)], samples_ - done), {}};
+bool PassSchedule::is_for_all(const Standing& standing, double samples) const {
+  return samples == std::floor(samples) && !(adaptive_ && standing.spp >= kFirstForAll);
+}
+
+PassSchedule::Next PassSchedule::replay(const Standing& standing) const {
+  if (standing.passes > 0 && standing.elapsed_ms >= time_ms_) return {0.0, true, "time"};
+  const double samples = std::min(replay_[static_cast<size_t>(standing.passes)], samples_ - standing.spp);
+  return {samples, is_for_all(standing, samples), {}};
+}
+
+PassSchedule::Next PassSchedule::next(const Standing& standing) const {
+  // A pass that goes where the error is gives whole cells their samples, and leaves less than the next one takes.
+  constexpr double kLeast = 1.0 / 64.0;
+  if (!replay_.empty() && standing.passes >= static_cast<int>(replay_.size())) return {0.0, true, "passes"};
+  if (samples_ - standing.spp < kLeast) return {0.0, true, "samples"};
+  if (standing.rmse <= rmse_ && standing.spp >= kFirstForAll) return {0.0, true, "rmse"};
+  if (!replay_.empty()) return replay(standing);
+  if (standing.spp < 1.0) return {1.0, true, {}};
+
+  // Doubling keeps the blocks of a pixel's sequence whole: with a few samples more its mean is hardly better.
+  const bool is_spent = adaptive_ && standing.spp >= kFirstForAll;
+  double wanted = standing.spp;
+  if (is_spent && rmse_ > 0.0 && standing.rmse < std::numeric_limits<double>::infinity()) {
+    const double eighths = std::ceil(8.0 * (growth(standing.rmse, rmse_) - 1.0));
+    wanted *= std::clamp(eighths, 1.0, 8.0) / 8.0;
   }
-  if (done >= samples_) return {0, "samples"};
-  int wanted = std::min(std::max(1, done), samples_ - done);
-  if (done > 0) {
-    const double fitting = (time_ms_ - elapsed_ms) / ms_per_sample;
-    if (fitting < 1.0) return {0, "time"};
-    if (fitting < wanted) wanted = static_cast<int>(fitting);
+  wanted = std::min(wanted, samples_ - standing.spp);
+  // What is left when less than this remains is too little to be worth a pass.
+  const double left_ms = time_ms_ - standing.elapsed_ms;
+  if (left_ms < std::max(3.0, 0.02 * time_ms_)) return {0.0, true, "time"};
+  constexpr double kCaution = 0.8;  // passes differ in what a sample costs
+  const double fitting = kCaution * left_ms / standing.ms_per_sample;
+  if (fitting < wanted) {
+    // No whole number, so that a replay sends it where the error is, as is done here.
+    wanted = (std::floor(fitting / kLeast) - 0.5) * kLeast;
+    if (wanted < kLeast) return {0.0, true, "time"};
   }
-  return {wanted, {}};
+  return {wanted, is_for_all(standing, wanted), {}};
+}
+
+double PassSchedule::expected_samples(const Standing& standing) const {
+  double expected = replay_.empty() ? samples_ : std::accumulate(replay_.begin(), replay_.end(), 0.0);
+  expected = std::min(expected, samples_);
+  if (rmse_ > 0.0 && standing.rmse < std::numeric_limits<double>::infinity())
+    expected = std::min(expected, standing.spp * std::max(1.0, growth(standing.rmse, rmse_)));
+  return expected;
 }
 
 }  // namespace tilelight

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many samples the next pass takes: 1, 1, 2, 4, 8, ... up to the view's stop rules, or the list of an exact replay.
-// Plain value, no clock inside: times come in as numbers.
+// How much the next pass takes: 1, 1, 2, 4, 8, ... samples a pixel up to the view's stop rules, or the list of an exact
+// replay. Plain value, no clock inside: times come in as numbers.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,24 +11,40 @@
 
 namespace tilelight {
 
+// How far a render is.
+struct Standing {
+  int passes = 0;
+  double spp = 0.0;                                       // samples a pixel so far: the mean over pixels
+  double elapsed_ms = 0.0;                                // since its start
+  double ms_per_sample = 0.0;                             // a pixel's; by its last pass
+  double rmse = std::numeric_limits<double>::infinity();  // the upper end of the estimate
+};
+
 class PassSchedule {
  public:
   explicit PassSchedule(const RenderSpec& spec);
 
   struct Next {
-    int samples = 0;   // 0: the render is over
-    std::string stop;  // then: "samples", "time" or "passes"
+    // A pixel's; the mean over pixels where it is not for all alike. 0: the render is over.
+    double samples = 0.0;
+    bool for_all = true;  // every pixel takes as many; else they go where the error is
+    std::string stop;     // once it is over: "samples", "rmse", "time" or "passes"
   };
-  // done: samples a pixel in whole passes so far. elapsed_ms, ms_per_sample: of this render, for the time rule, which
-  // cuts a pass to what fits (a replay's passes stay whole); the first pass always runs.
-  Next next(int passes_done, int done, double elapsed_ms, double ms_per_sample) const;
+  // The first pass always runs. The time rule cuts passes to what fits; those of a replay stay whole.
+  Next next(const Standing& standing) const;
 
-  int samples() const { return samples_; }  // a pixel at most
+  // What the render takes in all, a pixel: by its rules on samples and, once the error is known, on rmse.
+  double expected_samples(const Standing& standing) const;
 
  private:
-  std::vector<int> replay_;
-  int samples_;
-  double time_ms_;  // infinite without a time rule
+  Next replay(const Standing& standing) const;
+  bool is_for_all(const Standing& standing, double samples) const;
+
+  std::vector<double> replay_;
+  double samples_;
+  bool adaptive_;
+  double rmse_;     // 0 without the rule
+  double time_ms_;  // infinite without the rule
 };
 
 }  // namespace tilelight

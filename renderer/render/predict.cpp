@@ -21,7 +21,9 @@ double ms_since(Clock::time_point start) {
 
 int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect) {
   TileCounts counts;
-  kernel_of(plan.variant)({.scene = &scene, .plan = &plan, .eye_media = &eye_media, .rect = rect, .counts = &counts});
+  std::vector<CellWork> cells;
+  for_each_cell(rect, [&](const TileRect& cell) { cells.push_back({cell}); });
+  kernel_of(plan.variant)({.scene = &scene, .plan = &plan, .eye_media = &eye_media, .cells = cells, .counts = &counts});
   return counts.primary + counts.shadow + counts.reflected + counts.refracted;
 }
 
@@ -98,7 +100,7 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
 
   const double rays_a_pass_sample =
       price.rays_per_sample * plan.view.image.width * static_cast<double>(plan.view.image.height);
-  const double samples = PassSchedule(plan.view.render).samples();
+  const double samples = PassSchedule(plan.view.render).expected_samples({});
   const auto cost_of = [&](double samples_a_pixel) {
     const double rays = rays_a_pass_sample * samples_a_pixel, cpu_ms = rays * price.ms_per_ray;
     return CostPrediction{1e-6 * rays, cpu_ms, cpu_ms / std::max(1, threads)};

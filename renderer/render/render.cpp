@@ -10,6 +10,7 @@
 
 #include "renderer/base/standard_floats.h"
 #include "renderer/render/pass_schedule.h"
+#include "renderer/render/spend.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/tile_job.h"
 
@@ -22,11 +23,13 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
+constexpr int64_t kColorBytes = 3 * sizeof(float);
 constexpr int kTilePx = 32;            // 12 KiB of float RGB stays in L1; an item of one sample takes one to five ms
 constexpr double kItemTargetMs = 5.0;  // longest wait of a more urgent render for a thread
 
 // The state machine behind Render. The pool calls take() and run(); the last item of a step opens the next step. A pass
-// is one or more steps: a step gives every tile as many samples as fit kItemTargetMs, so that items stay short.
+// is steps of tracing, then one that measures what the blocks of samples say, then one that spreads it over neighbours.
+// A step of tracing gives every tile as many samples as fit kItemTargetMs, so that items stay short.
 class TileRender final : public Render, public WorkSource {
  public:
   TileRender(TilePool& pool, std::shared_ptr<const CompiledScene> scene, ViewPlan plan, RenderOptions options)
@@ -41,10 +44,11 @@ class TileRender final : public Render, public WorkSource {
         kernel_(kernel_of(plan_.variant)),
         eye_media_(*scene_, plan_),
         schedule_(plan_.view.render),
-        film_(width_, height_) {
+        film_(width_, height_),
+        error_map_(width_, height_, plan_.view.image.exposure) {
     report_.threads = pool.thread_count();
-    const std::lock_guard lock(mutex_);
-    open_pass(Clock::now());
+    report_.adaptive = plan_.view.render.adaptive;
+    open_pass(schedule_.next(standing_));
   }
 
   Next take() override {
@@ -57,14 +61,16 @@ class TileRender final : public Render, public WorkSource {
 
   void run(uint64_t item) override {
     const auto begin = Clock::now();
+    const TileRect rect = tile_rect(static_cast<int>(item), width_, height_, tile_px_);
     TileCounts counts;
     std::string error;
     try {
-      render_item(static_cast<int>(item), counts);
+      work_on(rect, counts);
     } catch (const std::exception& e) {
-      error = e.what();
+      error = std::string(e.what()) + " (reproduce: tilelight render scene.json --pixel " + std::to_string(rect.x0) +
+              "," + std::to_string(rect.y0) + ")";
     }
-    finish_item(static_cast<int>(item), counts, ms_between(begin, Clock::now()), error);
+    finish_item(counts, ms_between(begin, Clock::now()), error);
   }
 
   void cancel() override {
@@ -86,16 +92,20 @@ class TileRender final : public Render, public WorkSource {
     const std::lock_guard lock(mutex_);
     RenderProgress p;
     p.state = state_;
-    p.spp = done_samples_;
+    p.spp = standing_.spp;
     p.error = error_;
-    p.elapsed_ms = ms_between(start_, state_ == RenderState::running ? Clock::now() : end_);
-    const double total = std::max(1, schedule_.samples());
-    const double in_step = static_cast<double>(step_samples_) * tiles_done_ / tiles_;
-    p.fraction = state_ == RenderState::running ? std::min(1.0, (step_first_ + in_step) / total) : 1.0;
-    if (const auto& time_ms = plan_.view.render.time_ms; time_ms && state_ == RenderState::running) {
-      p.fraction = std::min(1.0, std::max(p.fraction, p.elapsed_ms / *time_ms));
+    const bool is_running = state_ == RenderState::running;
+    p.elapsed_ms = ms_between(start_, is_running ? Clock::now() : end_);
+    if (!is_running) {
+      p.fraction = 1.0;
+      return p;
     }
-    if (state_ == RenderState::running && p.fraction > 0.0) p.eta_ms = p.elapsed_ms * (1.0 - p.fraction) / p.fraction;
+    const double steps = step_first_ + static_cast<double>(step_samples_) * tiles_done_ / tiles_;
+    const double in_pass = stage_ == Stage::trace ? steps / pass_length_ : 1.0;
+    p.fraction = (standing_.spp + pass_samples_ * in_pass) / std::max(1.0, schedule_.expected_samples(standing_));
+    if (const auto& time_ms = plan_.view.render.time_ms) p.fraction = std::max(p.fraction, p.elapsed_ms / *time_ms);
+    p.fraction = std::min(1.0, p.fraction);
+    if (p.fraction > 0.0) p.eta_ms = p.elapsed_ms * (1.0 - p.fraction) / p.fraction;
     return p;
   }
 
@@ -107,6 +117,11 @@ class TileRender final : public Render, public WorkSource {
   std::shared_ptr<const Image> image() const override {
     const std::lock_guard lock(mutex_);
     return image_;
+  }
+
+  std::shared_ptr<const std::vector<float>> error_bounds() const override {
+    const std::lock_guard lock(mutex_);
+    return error_bounds_;
   }
 
   bool wait_ms(double ms) const override {
@@ -121,83 +136,87 @@ class TileRender final : public Render, public WorkSource {
   }
 
  private:
-  void render_item(int tile, TileCounts& counts) {
-    const TileRect rect = tile_rect(tile, width_, height_, tile_px_);
-    TileView view = film_.view(rect);
-    TileJob job;
-    job.scene = scene_.get();
-    job.plan = &plan_;
-    job.eye_media = &eye_media_;
-    job.film = &view;
-    job.rect = rect;
-    // Constant while items of the step run.
-    job.first_sample = static_cast<uint32_t>(step_first_);
-    job.sample_count = static_cast<uint32_t>(step_samples_);
-    job.cancelled = &cancelled_;
-    job.counts = &counts;
-    kernel_(job);
+  enum class Stage { trace, measure, spread };
+
+  // What is read here is constant while items of the step run.
+  void work_on(const TileRect& tile, TileCounts& counts) {
+    switch (stage_) {
+      case Stage::trace:
+        trace(tile, counts);
+        break;
+      case Stage::measure:
+        film_.resolve(tile, *next_image_);
+        error_map_.measure(film_, *next_image_, tile);
+        break;
+      case Stage::spread:
+        error_map_.spread(film_, tile);
+        break;
+    }
+  }
+
+  void trace(const TileRect& tile, TileCounts& counts) {
+    TileView view = film_.view();
+    std::vector<CellWork> cells;
+    for_each_cell(tile, [&](const TileRect& cell) {
+      const size_t i = film_.cell_at(cell.x0, cell.y0);
+      const uint32_t first = film_.samples()[i] + step_first_;
+      const uint32_t last = std::min(targets_[i], first + step_samples_);
+      if (first < last) cells.push_back({cell, first, last - first});
+    });
+    kernel_({.scene = scene_.get(),
+             .plan = &plan_,
+             .eye_media = &eye_media_,
+             .film = &view,
+             .cells = cells,
+             .cancelled = &cancelled_,
+             .counts = &counts});
   }
 
   // What an item leaves to be done once the lock is free.
   enum class Then { nothing, wake, announce_pass, announce_end };
 
-  void finish_item(int tile, const TileCounts& counts, double item_ms, const std::string& error) {
+  void finish_item(const TileCounts& counts, double item_ms, const std::string& error) {
     Then then = Then::nothing;
-    bool is_pass_whole = false;
+    bool is_step_whole = false;
     {
       const std::lock_guard lock(mutex_);
       ++tiles_done_;
       add(counts, item_ms);
-      if (!error.empty()) fail_render(tile, error);
+      if (!error.empty() && error_.empty()) {
+        error_ = error;
+        cancelled_.store(true, std::memory_order_relaxed);
+      }
       drop_overrun_pass();
       const bool is_stopping = cancelled_.load(std::memory_order_relaxed);
-      is_pass_whole = !is_stopping && tiles_done_ == tiles_ && step_end() == pass_first_ + pass_samples_;
-      if (!is_pass_whole) then = leave_item();
+      is_step_whole = !is_stopping && tiles_done_ == tiles_;
+      if (is_stopping && --in_flight_ == 0) {
+        end_early();
+        then = Then::announce_end;
+      } else if (!is_stopping && !is_step_whole) {
+        --in_flight_;
+      }
     }
-    if (is_pass_whole) {
-      // No other item runs and none is handed out, so the film is at rest; the lock is not held over the whole image.
-      auto image = std::make_shared<const Image>(film_.resolve(step_end()));
-      const std::lock_guard lock(mutex_);
-      image_ = std::move(image);
-      then = leave_item();
+    if (is_step_whole) {
+      try {
+        then = finish_step();
+      } catch (const std::exception& e) {
+        then = fail(e.what());
+      }
     }
     if (then == Then::announce_pass || then == Then::announce_end) announce();
     if (then != Then::nothing) pool_.wake(this);  // at the end too: the pool lets go of what says `finished`
   }
 
-  // REQUIRES: mutex_.
-  Then leave_item() {
-    --in_flight_;
-    if (cancelled_.load(std::memory_order_relaxed)) {
-      if (in_flight_ > 0) return Then::nothing;
-      end_early();
-      return Then::announce_end;
-    }
-    if (tiles_done_ < tiles_) return Then::nothing;
-    if (finish_step()) return Then::wake;
-    return state_ == RenderState::running ? Then::announce_pass : Then::announce_end;
-  }
-
-  // REQUIRES: mutex_.
-  void fail_render(int tile, const std::string& error) {
-    if (!error_.empty()) return;
-    const TileRect rect = tile_rect(tile, width_, height_, tile_px_);
-    error_ = error + " (reproduce: tilelight render scene.json --pixel " + std::to_string(rect.x0) + "," +
-             std::to_string(rect.y0) + ")";
-    cancelled_.store(true, std::memory_order_relaxed);
-  }
-
-  int step_end() const { return step_first_ + step_samples_; }
-
   // REQUIRES: mutex_. A pass that runs past the time limit will not count: stop it now, unless it is the first.
   void drop_overrun_pass() {
     const auto& time_ms = plan_.view.render.time_ms;
-    if (!time_ms || done_samples_ == 0 || state_ != RenderState::running) return;
+    if (!time_ms || standing_.passes == 0 || stage_ != Stage::trace || state_ != RenderState::running) return;
     if (ms_between(start_, Clock::now()) <= *time_ms || tiles_done_ == tiles_) return;
     over_time_ = true;
     cancelled_.store(true, std::memory_order_relaxed);
   }
 
+  // REQUIRES: mutex_.
   void end_early() {
     if (!error_.empty()) {
       end(RenderState::failed, "failed");
@@ -208,45 +227,111 @@ class TileRender final : public Render, public WorkSource {
     }
   }
 
-  // REQUIRES: mutex_. True if the pass goes on with another step; else a pass is finished.
-  bool finish_step() {
-    const auto now = Clock::now();
-    const double step_ms = ms_between(step_start_, now);
-    item_ms_per_sample_ = step_ms * report_.threads / tiles_ / step_samples_;
-    if (step_end() < pass_first_ + pass_samples_) {
-      open_step(step_end(), now);
-      return true;
+  // The caller holds the render's only item in flight and none is handed out: film, map and targets are at rest, and
+  // work over the whole image needs no lock.
+  Then finish_step() {
+    switch (stage_) {
+      case Stage::trace: {
+        if (step_first_ + step_samples_ < pass_length_) break;
+        film_.samples() = targets_;
+        next_image_ = std::make_shared<Image>(
+            Image{width_, height_, std::vector<float>(static_cast<size_t>(width_) * height_ * 3)});
+        break;
+      }
+      case Stage::measure:
+        error_map_.pool(film_);
+        break;
+      case Stage::spread:
+        return finish_pass();
     }
-    done_samples_ = step_end();
-    report_.passes.push_back(pass_samples_);
-    add_report_point(now);
-    open_pass(now);
-    return false;
-  }
-
-  // REQUIRES: mutex_.
-  void open_pass(Clock::time_point now) {
-    const double elapsed = ms_between(start_, now);
-    const int passes_done = static_cast<int>(report_.passes.size());
-    const PassSchedule::Next next =
-        schedule_.next(passes_done, done_samples_, elapsed, done_samples_ > 0 ? elapsed / done_samples_ : 0.0);
-    pass_first_ = done_samples_;
-    pass_samples_ = next.samples;
-    if (next.samples == 0) {
-      end(RenderState::done, next.stop);
+    const std::lock_guard lock(mutex_);
+    if (stage_ == Stage::trace && step_first_ + step_samples_ < pass_length_) {
+      const double step_ms = ms_between(step_start_, Clock::now());
+      item_ms_per_sample_ = step_ms * report_.threads / tiles_ / step_samples_;
+      open_step(Stage::trace, step_first_ + step_samples_);
     } else {
-      open_step(pass_first_, now);
+      open_step(stage_ == Stage::trace ? Stage::measure : Stage::spread, 0);
     }
+    return leave(Then::wake);
+  }
+
+  // REQUIRES: the render's only item in flight is the caller's.
+  Then fail(const char* what) {
+    const std::lock_guard lock(mutex_);
+    --in_flight_;
+    error_ = what;
+    end(RenderState::failed, "failed");
+    return Then::announce_end;
+  }
+
+  Then finish_pass() {
+    const ErrorSummary error = error_map_.summary();
+    auto error_bounds = std::make_shared<const std::vector<float>>(error_map_.bounds());
+    const double spp = samples_a_pixel();
+    PassSchedule::Next next;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto now = Clock::now();
+      const double elapsed = ms_between(start_, now);
+      standing_ = {.passes = standing_.passes + 1,
+                   .spp = spp,
+                   .elapsed_ms = elapsed,
+                   .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp)};
+      if (error.is_known) standing_.rmse = error.high;
+      image_ = std::move(next_image_);
+      error_bounds_ = std::move(error_bounds);
+      report_.passes.push_back(pass_samples_);
+      add_report_point(error);
+      next = schedule_.next(standing_);
+      if (next.samples == 0.0) end(RenderState::done, next.stop);
+    }
+    if (next.samples > 0.0) open_pass(next);
+    const std::lock_guard lock(mutex_);
+    return leave(state_ == RenderState::running ? Then::announce_pass : Then::announce_end);
+  }
+
+  // REQUIRES: mutex_. A cancel that came while the item in flight closed a step was left to it.
+  Then leave(Then then) {
+    --in_flight_;
+    if (state_ != RenderState::running || !cancelled_.load(std::memory_order_relaxed)) return then;
+    end_early();
+    return Then::announce_end;
+  }
+
+  double samples_a_pixel() const {
+    uint64_t sum = 0;
+    for_each_cell({0, 0, width_, height_}, [&](const TileRect& cell) {
+      sum += film_.samples()[film_.cell_at(cell.x0, cell.y0)] * static_cast<uint64_t>(cell.pixel_count());
+    });
+    return static_cast<double>(sum) / (static_cast<double>(width_) * height_);
+  }
+
+  void open_pass(const PassSchedule::Next& next) {
+    if (next.for_all) {
+      targets_ = film_.samples();
+      for (uint32_t& samples : targets_) samples += static_cast<uint32_t>(next.samples);
+    } else {
+      targets_ = spend(film_, error_map_.cell_variances(), next.samples);
+    }
+    uint32_t most = 0, longest = 0;
+    for (size_t i = 0; i < targets_.size(); ++i) {
+      most = std::max(most, targets_[i]);
+      longest = std::max(longest, targets_[i] - film_.samples()[i]);
+    }
+    film_.grow(most);
+    const std::lock_guard lock(mutex_);
+    pass_samples_ = next.samples;
+    pass_length_ = std::max(1u, longest);
+    open_step(Stage::trace, 0);
   }
 
   // REQUIRES: mutex_.
-  void open_step(int first, Clock::time_point now) {
-    const int left = pass_first_ + pass_samples_ - first;
-    const int fitting =
-        item_ms_per_sample_ > 0.0 ? static_cast<int>(std::min(1e6, kItemTargetMs / item_ms_per_sample_)) : 1;
+  void open_step(Stage stage, uint32_t first) {
+    const double fitting = item_ms_per_sample_ > 0.0 ? std::min(1e6, kItemTargetMs / item_ms_per_sample_) : 1.0;
+    stage_ = stage;
     step_first_ = first;
-    step_samples_ = std::clamp(fitting, 1, left);
-    step_start_ = now;
+    step_samples_ = std::clamp(static_cast<uint32_t>(fitting), 1u, pass_length_ - (stage == Stage::trace ? first : 0));
+    step_start_ = Clock::now();
     next_tile_ = 0;
     tiles_done_ = 0;
   }
@@ -256,7 +341,6 @@ class TileRender final : public Render, public WorkSource {
     state_ = state;
     end_ = Clock::now();
     report_.stop = std::move(stop);
-    pass_samples_ = 0;
     ended_.notify_all();
   }
 
@@ -271,13 +355,15 @@ class TileRender final : public Render, public WorkSource {
     cpu_ms_ += item_ms;
   }
 
-  void add_report_point(Clock::time_point now) {
+  // REQUIRES: mutex_.
+  void add_report_point(const ErrorSummary& error) {
     ReportPoint point;
-    point.pass = static_cast<int>(report_.passes.size());
-    point.spp = done_samples_;
-    point.elapsed_ms = ms_between(start_, now);
+    point.pass = standing_.passes;
+    point.spp = standing_.spp;
+    point.elapsed_ms = standing_.elapsed_ms;
     point.cpu_ms = cpu_ms_;
     point.rays = rays_;
+    point.error = error;
     point.nonfinite = nonfinite_;
     point.lights_on_hits = lights_on_hits_;
     if (untraced_weight_ == 0.0) {
@@ -305,18 +391,24 @@ class TileRender final : public Render, public WorkSource {
   const Clock::time_point start_ = Clock::now();
 
   std::atomic<bool> cancelled_{false};
-  Film film_;  // items write disjoint tiles; read only between steps
+  // Items write disjoint tiles; between steps the last item's thread has them for itself.
+  Film film_;
+  ErrorMap error_map_;
+  std::shared_ptr<Image> next_image_;  // of the pass in work
+  std::vector<uint32_t> targets_;      // by cell: its samples after the pass in work
 
   mutable std::mutex mutex_;
   mutable std::condition_variable ended_;
-  // Guarded by mutex_.
+  // Guarded by mutex_; items read the stage and the step without it, for they change only between steps.
   RenderState state_ = RenderState::running;
   std::string error_;
   bool over_time_ = false;
   Clock::time_point end_, step_start_;
-  int done_samples_ = 0;
-  int pass_first_ = 0, pass_samples_ = 0;
-  int step_first_ = 0, step_samples_ = 1;
+  Standing standing_;
+  double pass_samples_ = 0.0;
+  uint32_t pass_length_ = 1;  // samples of the cell that takes most
+  Stage stage_ = Stage::trace;
+  uint32_t step_first_ = 0, step_samples_ = 1;  // of each cell's samples in the pass
   int next_tile_ = 0, tiles_done_ = 0, in_flight_ = 0;
   double item_ms_per_sample_ = 0.0;
   double cpu_ms_ = 0.0, untraced_weight_ = 0.0;
@@ -324,9 +416,18 @@ class TileRender final : public Render, public WorkSource {
   int64_t nonfinite_ = 0, lights_on_hits_ = 0;
   RenderReport report_;
   std::shared_ptr<const Image> image_;
+  std::shared_ptr<const std::vector<float>> error_bounds_;
 };
 
 }  // namespace
+
+int64_t render_memory_bytes(const View& view) {
+  const auto& [width, height, exposure] = view.image;
+  const int64_t pixel_bytes =
+      std::min<int64_t>(kSampleBlocks, view.render.samples.value_or(kSampleBlocks)) * kColorBytes + 2 * kColorBytes +
+      ErrorMap::kPixelBytes;
+  return int64_t{width} * height * pixel_bytes;
+}
 
 ViewPlan plan_view(const CompiledScene& scene, const View& view) { return plan_view(scene, view, current_isa()); }
 

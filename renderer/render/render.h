@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Render: one render from pass to pass. Passes of 1, 1, 2, 4, 8, ... samples a pixel over a grid of work items; only
-// whole passes count. It owns no threads: a TilePool calls it. The image of the passes done so far can be read at any
-// time. Any thread may call any method.
+// Render: one render from pass to pass. Passes of 1, 1, 2, 4, 8, ... samples a pixel over a grid of work items, and
+// after each of them its error; only whole passes count. It owns no threads: a TilePool calls it. The image of the
+// passes done so far can be read at any time. Any thread may call any method.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,14 @@
 #include <vector>
 
 #include "renderer/compile/compile.h"
+#include "renderer/film/error_map.h"
 #include "renderer/film/film.h"
 #include "renderer/schedule/tile_pool.h"
 
 namespace tilelight {
+
+// What a render of the view holds at most: samples, error and image.
+int64_t render_memory_bytes(const View& view);
 
 // plan_view for the instruction set in use.
 ViewPlan plan_view(const CompiledScene& scene, const View& view);
@@ -29,9 +33,11 @@ struct RayCounts {
 
 // One point of the report: after a whole pass. Times in milliseconds since the start.
 struct ReportPoint {
-  int pass = 0, spp = 0;
+  int pass = 0;
+  double spp = 0.0;  // samples a pixel: the mean over pixels
   double elapsed_ms = 0.0, cpu_ms = 0.0;
   RayCounts rays;
+  ErrorSummary error;
   double truncation_bound = -1.0;  // bound of the mean linear value left untraced; < 0: none is finite
   int64_t nonfinite = 0;           // samples that were not finite; each is a bug
   int64_t lights_on_hits = 0;      // lights at the very point of a hit, where they bring nothing
@@ -39,14 +45,15 @@ struct ReportPoint {
 
 struct RenderReport {
   std::vector<ReportPoint> points;
-  std::string stop;         // "samples", "time", "passes", "cancelled", "failed"; empty while running
-  std::vector<int> passes;  // what passes: [...] replays
+  std::string stop;  // "samples", "rmse", "time", "passes", "cancelled", "failed"; empty while running
+  bool adaptive = false;
+  std::vector<double> passes;  // what passes: [...] replays, with the same adaptive
   int threads = 0;
 };
 
 struct RenderProgress {
   RenderState state = RenderState::running;
-  int spp = 0;            // samples a pixel in whole passes so far
+  double spp = 0.0;       // samples a pixel in whole passes so far: the mean over pixels
   double fraction = 0.0;  // [0, 1]
   double elapsed_ms = 0.0;
   double eta_ms = -1.0;  // < 0: unknown
@@ -70,6 +77,8 @@ class Render {
   virtual RenderReport report() const = 0;
   // The image of the whole passes so far; null before the first pass.
   virtual std::shared_ptr<const Image> image() const = 0;
+  // By pixel of that image, what its error is below of in 95 % of cases, displayed. Null before the first pass.
+  virtual std::shared_ptr<const std::vector<float>> error_bounds() const = 0;
   // Blocks until the render ends or the time is over. True if it ended.
   virtual bool wait_ms(double ms) const = 0;
 };

@@ -58,20 +58,29 @@ ImageSpec build_image(Value value, const Limits& limits, Problems& problems) {
 
 void build_stop_rules(Value value, RenderSpec& render, const Limits& limits, Problems& problems) {
   if (const Value time = find_accepted(value, "time_ms")) render.time_ms = time.number();
+  if (const Value rmse = find_accepted(value, "rmse")) render.rmse = rmse.number();
   if (const Value passes = find_accepted(value, "passes")) {
     render.passes.assign(passes.numbers().begin(), passes.numbers().end());
-    const auto sum = std::accumulate(render.passes.begin(), render.passes.end(), int64_t{0});
+    const double sum = std::accumulate(render.passes.begin(), render.passes.end(), 0.0);
     if (sum > limits.samples) {
       problems.add(passes, {"limit",
-                            "found " + std::to_string(sum) + " samples a pixel in all passes; allowed: " +
-                                std::to_string(limits.samples) + " (limit samples)",
+                            "found " + std::to_string(static_cast<int64_t>(sum)) +
+                                " samples a pixel in all passes; allowed: " + std::to_string(limits.samples) +
+                                " (limit samples)",
                             {},
                             ""});
     } else {
-      render.samples = static_cast<int>(sum);
+      render.samples = static_cast<int>(std::ceil(sum));
+    }
+    if (render.passes[0] != std::floor(render.passes[0])) {
+      problems.add(passes, {"fractional_first_pass",
+                            "found a fraction of a sample in the first pass; allowed: a whole number, for every pixel "
+                            "takes as many",
+                            {},
+                            ""});
     }
   } else {
-    render.samples = render.time_ms ? limits.samples : std::min(kDefaultSamples, limits.samples);
+    render.samples = render.rmse || render.time_ms ? limits.samples : std::min(kDefaultSamples, limits.samples);
   }
   if (const Value samples = find_accepted(value, "samples")) {
     render.samples = static_cast<int>(samples.number());
@@ -84,6 +93,7 @@ RenderSpec build_render(Value value, const Limits& limits, Problems& problems) {
   RenderSpec render;
   render.algorithm = read_word(value, "algorithm", kAlgorithms, render.algorithm);
   render.shading = read_word(value, "shading", kShadings, render.shading);
+  render.filter = read_word(value, "filter", kFilters, render.filter);
   render.terminator = read_word(value, "terminator", kTerminators, render.terminator);
   render.shadows = read_boolean(value, "shadows", render.shadows);
   render.max_depth = std::min(read_int(value, "max_depth", render.max_depth), limits.max_depth);
@@ -91,6 +101,7 @@ RenderSpec build_render(Value value, const Limits& limits, Problems& problems) {
   render.ray_budget = std::min(read_int(value, "ray_budget", render.ray_budget), limits.ray_budget);
   render.seed = static_cast<uint32_t>(read_number(value, "seed", render.seed));
   build_stop_rules(value, render, limits, problems);
+  render.adaptive = read_boolean(value, "adaptive", render.rmse || render.time_ms);
   return render;
 }
 

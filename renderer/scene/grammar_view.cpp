@@ -39,7 +39,7 @@ Rule image_grammar(const Limits& limits) {
 }
 
 Rule render_grammar(const Limits& limits) {
-  const Range pass{.min = 1.0, .max = static_cast<double>(limits.samples), .whole = true, .is_limit = true};
+  const Range pass{.min = 0.0, .max = static_cast<double>(limits.samples), .above_min = true, .is_limit = true};
   Rule tessellate = boolean_rule();
   tessellate.only_false = true;
   return record_rule(
@@ -54,16 +54,22 @@ Rule render_grammar(const Limits& limits) {
         {"ray_budget", whole_rule(1, limits.ray_budget, true), "Rays a pixel sample", "", "4096"},
         {"terminator", words_rule(kTerminators), "Where light ends on meshes with smooth normals",
          "smooth: on the curved surface that the facets stand for; exact: facet by facet.", "\"smooth\""},
-        {"filter", words_rule({{"box"}, {"tent", false}, {"gaussian", false}}), "Pixel filter", "", "\"box\""},
+        {"filter", words_rule(kFilters), "Pixel filter",
+         "box: the pixel's square; tent: a pixel to each side of its middle; gaussian: of half a pixel's deviation.",
+         "\"box\""},
         {"tessellate", tessellate, "Whether spheres and boxes become triangles", "", "false"},
         {"seed", whole_rule(0, 4294967295.0), "Seed of the sampling pattern", "", "0"},
         {"samples", whole_rule(1, limits.samples, true), "Stop rule: samples a pixel",
-         "16 where no rule is given; the server's limit beside `time_ms` alone."},
+         "In the mean over pixels. 16 where no rule is given; the server's limit beside `rmse` or `time_ms` alone."},
         {"time_ms", number_rule({.min = 0.0, .max = limits.time_ms, .above_min = true, .is_limit = true}),
          "Stop rule: time", "Milliseconds."},
         {"passes", numbers_rule(pass, {.min = 1, .max = limits.samples, .is_limit = true}),
-         "Stop rule: an exact replay", "Samples a pixel of every pass, as a report lists them."},
-        {"rmse", number_rule(kPositive), "Stop rule: error", "", "", Need::later}}});
+         "Stop rule: an exact replay", "Samples a pixel of every pass, as a report lists them; the first is whole."},
+        {"rmse", number_rule(kPositive), "Stop rule: error",
+         "Root mean square of displayed - true over pixels and channels, displayed from 0 to 1: the upper end of the "
+         "estimate."},
+        {"adaptive", boolean_rule(), "Whether samples go where the error is",
+         "Else every pixel takes as many. True where a rule on `rmse` or `time_ms` is given."}}});
 }
 
 }  // namespace tilelight

@@ -161,11 +161,15 @@ enum class Shading { phong };
 // facet.
 enum class Terminator { smooth, exact };
 
+// How a pixel weighs the picture around its middle.
+enum class PixelFilter { box, tent, gaussian };
+
 struct RenderSpec {
   Algorithm algorithm = Algorithm::raytrace;
   Shading shading = Shading::phong;
   bool shadows = true;
   Terminator terminator = Terminator::smooth;
+  PixelFilter filter = PixelFilter::box;
   int max_depth = 8;             // secondary rays in a row; 0 = local light only
   double weight_cutoff = 0.002;  // a path of less weight is not followed
   int ray_budget = 4096;         // rays a pixel sample
@@ -173,8 +177,10 @@ struct RenderSpec {
   // Stop rules; the first that holds ends the render.
   std::optional<int> samples;    // a pixel; parsing always sets it
   bool samples_implied = false;  // nobody asked for `samples`: it follows from the other rules or is the default
+  std::optional<double> rmse;    // of displayed - true, over pixels and channels: the upper end of the estimate
   std::optional<double> time_ms;
-  std::vector<int> passes;  // an exact replay; empty = not asked for
+  std::vector<double> passes;  // an exact replay; empty = not asked for
+  bool adaptive = false;       // samples go where the error is; else every pixel takes as many
   bool operator==(const RenderSpec&) const = default;
 };
 

@@ -38,12 +38,15 @@ json to_json(const RenderSpec& render) {
               {"shading", get_word(kShadings, render.shading)},
               {"shadows", render.shadows},
               {"terminator", get_word(kTerminators, render.terminator)},
+              {"filter", get_word(kFilters, render.filter)},
               {"max_depth", render.max_depth},
               {"weight_cutoff", render.weight_cutoff},
               {"ray_budget", render.ray_budget},
               {"seed", render.seed}};
   if (render.samples && !render.samples_implied) out["samples"] = *render.samples;
+  if (render.rmse) out["rmse"] = *render.rmse;
   if (render.time_ms) out["time_ms"] = *render.time_ms;
+  if (render.adaptive != (render.rmse || render.time_ms)) out["adaptive"] = render.adaptive;
   if (!render.passes.empty()) out["passes"] = render.passes;
   return out;
 }

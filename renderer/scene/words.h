@@ -39,6 +39,8 @@ inline constexpr std::array<NamedValue<Projection>, 2> kProjections{
     {{Projection::perspective, "perspective"}, {Projection::orthographic, "orthographic"}}};
 inline constexpr std::array<NamedValue<Algorithm>, 1> kAlgorithms{{{Algorithm::raytrace, "raytrace"}}};
 inline constexpr std::array<NamedValue<Shading>, 1> kShadings{{{Shading::phong, "phong"}}};
+inline constexpr std::array<NamedValue<PixelFilter>, 3> kFilters{
+    {{PixelFilter::box, "box"}, {PixelFilter::tent, "tent"}, {PixelFilter::gaussian, "gaussian"}}};
 inline constexpr std::array<NamedValue<Terminator>, 2> kTerminators{
     {{Terminator::smooth, "smooth"}, {Terminator::exact, "exact"}}};
 

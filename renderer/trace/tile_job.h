@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. The kernel traces
-// `sample_count` samples of every pixel of the tile and adds them to the film in index order.
+// TileJob: one work item of a render, as a kernel takes it, and the choice of the kernel. The kernel traces the samples
+// asked for and adds them to the film, a pixel's in index order.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "renderer/compile/compile.h"
 #include "renderer/compile/compiled_scene.h"
@@ -21,7 +21,7 @@ struct TileCounts {
   int64_t nonfinite = 0;                                          // samples that were not finite, or over 1e34
   int64_t lights_on_hits = 0;    // lights that lay on the very point they should light: they bring nothing
   double untraced_weight = 0.0;  // largest weight one sample left untraced
-  bool is_complete = false;      // false: cancelled on the way; the tile holds part of its samples
+  bool is_complete = false;      // false: cancelled on the way; the film holds part of the samples
 };
 
 // Writes down every ray of one sample, for explanations. Called in breadth-first order.
@@ -42,14 +42,19 @@ class RayListener {
   virtual void on_light(const CompiledLight& light, const LightSample& sample, const Color& visible) = 0;
 };
 
+// Samples first, first + 1, ... of every pixel of a rectangle: a cell, so that neighbours are walked together.
+struct CellWork {
+  TileRect rect;
+  uint32_t first = 0, count = 1;
+};
+
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
   const EyeMedia* eye_media = nullptr;
   TileView* film = nullptr;  // null: nothing is written (explanations)
-  TileRect rect;
-  uint32_t first_sample = 0, sample_count = 1;
-  const std::atomic<bool>* cancelled = nullptr;  // read every row; may be null
+  std::span<const CellWork> cells;
+  const std::atomic<bool>* cancelled = nullptr;  // read every batch; may be null
   TileCounts* counts = nullptr;
   RayListener* listener = nullptr;  // explain() alone sets it
 };
@@ -58,8 +63,8 @@ using Kernel = void (*)(const TileJob&);
 
 Kernel kernel_of(KernelVariant variant);
 
-// Traces one sample of every pixel of the tile, whatever the view's kernel is, and tells the listener of every ray.
-// Nothing is written.
+// Traces one sample of every pixel of the rectangle, row by row, whatever the view's kernel is, and tells the listener
+// of every ray. Nothing is written.
 TileCounts explain(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect,
                    uint32_t sample, RayListener& listener);
 

@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
-#include "renderer/film/sampling.h"
 #include "renderer/shade/media.h"
 #include "renderer/shade/scatter.h"
 #include "renderer/trace/intersect.h"
+#include "renderer/trace/pixel_filter.h"
 #include "renderer/trace/tile_job.h"
 #include "renderer/trace/trace_rays.h"
 
@@ -42,18 +42,33 @@ class TileKernel {
         media_(*job.scene) {}
 
   void run() {
-    constexpr int kBatchPixels = 256;  // about 60 KiB of rays and hits: inside L2, and long enough to be coherent
-    const int rows = std::max(1, kBatchPixels / std::max(1, job_.rect.width()));
-    for (uint32_t s = 0; s < job_.sample_count; ++s) {
-      for (int y = job_.rect.y0; y < job_.rect.y1; y += rows) {
-        if (is_cancelled()) return;
-        render_rows(y, std::min(y + rows, job_.rect.y1), job_.first_sample + s);
+    constexpr int64_t kBatchPixels = 256;  // about 60 KiB of rays and hits: inside L2, and long enough to be coherent
+    uint32_t most = 0;
+    for (const CellWork& cell : job_.cells) most = std::max(most, cell.count);
+    int64_t pixels = 0;
+    for (uint32_t s = 0; s < most; ++s) {
+      for (const CellWork& cell : job_.cells) {
+        if (s >= cell.count) continue;
+        if (pixels > 0 && pixels + cell.rect.pixel_count() > kBatchPixels) {
+          if (is_cancelled()) return;
+          render_batch();
+          pixels = 0;
+        }
+        batch_.push_back({cell.rect, cell.first + s});
+        pixels += cell.rect.pixel_count();
       }
     }
+    if (is_cancelled()) return;
+    render_batch();
     counts_.is_complete = !is_cancelled();
   }
 
  private:
+  // One sample of every pixel of a cell.
+  struct CellSample {
+    TileRect rect;
+    uint32_t index;
+  };
   // What a ray carries beside its geometry.
   struct Path {
     Color weight;
@@ -87,10 +102,11 @@ class TileKernel {
 
   bool is_cancelled() const { return job_.cancelled && job_.cancelled->load(std::memory_order_relaxed); }
 
-  void render_rows(int y0, int y1, uint32_t index) {
-    start_batch(y0, y1, index);
+  void render_batch() {
+    start_batch();
     follow_levels(0);
-    finish_batch(y0, y1);
+    finish_batch();
+    batch_.clear();
   }
 
   // Takes the rays of levels_[depth] and all their descendants to the end. Rays of one sample are neighbours.
@@ -153,26 +169,21 @@ class TileKernel {
     }
   }
 
-  // visit(x, y) in the order of a batch: neighbours are walked as packets, but an explanation goes row by row.
+  // visit(x, y, index) for every pixel sample of the batch. Neighbours are walked as packets.
   template <class Visit>
-  void for_each_pixel(int y0, int y1, const Visit& visit) const {
-    if constexpr (kCan.listens) {
-      for (int y = y0; y < y1; ++y)
-        for (int x = job_.rect.x0; x < job_.rect.x1; ++x) visit(x, y);
-    } else {
-      for_each_in_squares({job_.rect.x0, y0, job_.rect.x1, y1}, visit);
-    }
+  void for_each_sample(const Visit& visit) const {
+    for (const CellSample& cell : batch_) for_each_pixel(cell.rect, [&](int x, int y) { visit(x, y, cell.index); });
   }
 
-  void start_batch(int y0, int y1, uint32_t index) {
+  void start_batch() {
     if (levels_.empty()) levels_.emplace_back();
     Level& primary = levels_[0];
     primary.clear();
-    enter_eye_media({job_.rect.x0, y0, job_.rect.x1, y1});
+    enter_eye_media();
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
-    for_each_pixel(y0, y1, [&](int x, int y) {
-      const SamplePoint p = sample_point(x, y, spec_.seed, index);
+    for_each_sample([&](int x, int y, uint32_t index) {
+      const SamplePoint p = through_filter(spec_.filter, sample_point(x, y, spec_.seed, index));
       const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
       primary.push(ray.origin, ray.direction, {}, Coincident::none,
                    {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
@@ -183,11 +194,18 @@ class TileKernel {
     untraced_.assign(sample, 0.0);
   }
 
-  void enter_eye_media(const TileRect& pixels) {
+  void enter_eye_media() {
     media_.shrink(0);
     if constexpr (kCan.glass) {
       eye_media_ = media_.of(job_.eye_media->around_all());
-      some_media_ = job_.eye_media->some_near(pixels);
+      TileRect pixels = batch_.empty() ? TileRect{} : batch_[0].rect;
+      for (const CellSample& cell : batch_) {
+        pixels = {std::min(pixels.x0, cell.rect.x0), std::min(pixels.y0, cell.rect.y0),
+                  std::max(pixels.x1, cell.rect.x1), std::max(pixels.y1, cell.rect.y1)};
+      }
+      constexpr int kReach = kFilterReachPx;
+      some_media_ =
+          job_.eye_media->some_near({pixels.x0 - kReach, pixels.y0 - kReach, pixels.x1 + kReach, pixels.y1 + kReach});
     }
   }
 
@@ -364,9 +382,9 @@ class TileKernel {
     job_.listener->on_ray({path.depth, path.kind, ray, path.weight, hit, surface, local});
   }
 
-  void finish_batch(int y0, int y1) {
+  void finish_batch() {
     size_t sample = 0;
-    for_each_pixel(y0, y1, [&](int x, int y) {
+    for_each_sample([&](int x, int y, uint32_t index) {
       const Color& c = radiance_[sample];
       // More than this no sum of samples in float can hold.
       constexpr double kMost = 1e34;
@@ -374,12 +392,13 @@ class TileKernel {
       counts_.nonfinite += !is_finite;
       counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[sample++]);
       if (!job_.film) return;
-      job_.film->add(x, y, is_finite ? static_cast<float>(c.r) : 0.0f, is_finite ? static_cast<float>(c.g) : 0.0f,
-                     is_finite ? static_cast<float>(c.b) : 0.0f);
+      const Color kept = is_finite ? c : Color(0.0);
+      job_.film->add(x, y, index, static_cast<float>(kept.r), static_cast<float>(kept.g), static_cast<float>(kept.b));
     });
   }
 
   const TileJob& job_;
+  std::vector<CellSample> batch_;
   const CompiledScene& scene_;
   const ViewPlan& plan_;
   const RenderSpec& spec_;

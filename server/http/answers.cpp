@@ -76,11 +76,19 @@ std::string server_timing(const WorkStatus& status) {
   return text;
 }
 
-std::string render_info(int spp, std::string_view stop, const RenderReport& report) {
-  std::string out = "spp=" + std::to_string(spp);
+std::string render_info(double spp, std::string_view stop, const RenderReport& report) {
+  // Structured fields (RFC 8941) know decimals of three places and no exponents.
+  const auto decimal = [](double value, int places) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", places, value);
+    return std::string(text);
+  };
+  std::string out = "spp=" + decimal(spp, spp == std::floor(spp) ? 0 : 3);
   if (!stop.empty()) out += ", stop=\"" + std::string(stop) + "\"";
-  if (!report.points.empty()) out += ", nonfinite=" + std::to_string(report.points.back().nonfinite);
-  return out;
+  if (report.points.empty()) return out;
+  const ReportPoint& last = report.points.back();
+  if (last.error.is_known) out += ", rmse=" + decimal(last.error.rmse, 6);
+  return out + ", nonfinite=" + std::to_string(last.nonfinite);
 }
 
 Response shared_image(const EncodedPtr& image, ImageFormat format) {

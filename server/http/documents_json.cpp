@@ -88,11 +88,12 @@ std::string jobs_json(const std::vector<JobRecord>& records) {
 
 std::string report_csv(const RenderReport& report) {
   std::string out =
-      "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,truncation_bound,nonfinite,"
-      "lights_on_"
-      "hits\n";
+      "pass,spp,elapsed_ms,cpu_ms,rays_primary,rays_shadow,rays_reflected,rays_refracted,rmse,rmse_low,rmse_high,"
+      "est_p99,est_max,unconverged,truncation_bound,nonfinite,lights_on_hits\n";
   for (const ReportPoint& point : report.points) {
-    // JSON's numbers are also CSV's: the shortest text that reads back to the same value.
+    const ErrorSummary& error = point.error;
+    const auto known = [&error](double value) { return error.is_known ? Json(value) : Json(""); };
+    // JSON's numbers are also CSV's: the shortest text that reads back to the same value. What is not known is empty.
     const Json row = {point.pass,
                       point.spp,
                       point.elapsed_ms,
@@ -101,10 +102,17 @@ std::string report_csv(const RenderReport& report) {
                       point.rays.shadow,
                       point.rays.reflected,
                       point.rays.refracted,
-                      point.truncation_bound,
+                      known(error.rmse),
+                      known(error.low),
+                      known(error.high),
+                      known(error.p99),
+                      known(error.most),
+                      known(static_cast<double>(error.unconverged)),
+                      point.truncation_bound < 0.0 ? Json("") : Json(point.truncation_bound),
                       point.nonfinite,
                       point.lights_on_hits};
-    const std::string text = row.dump();
+    std::string text = row.dump();
+    std::erase(text, '"');
     out += text.substr(1, text.size() - 2) + "\n";
   }
   return out;

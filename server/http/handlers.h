@@ -77,6 +77,6 @@ Response accepted_response(const JobRecord& record, const Request& request);
 ::tl::unexpected<Problem> ended_without_image(const WorkStatus& status);
 
 std::string server_timing(const WorkStatus& status);
-std::string render_info(int spp, std::string_view stop, const RenderReport& report);
+std::string render_info(double spp, std::string_view stop, const RenderReport& report);
 
 }  // namespace tilelight::server

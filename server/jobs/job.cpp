@@ -62,10 +62,12 @@ std::string view_fingerprint(const View& view) {
   put_whole(out, view.image.width), put_whole(out, view.image.height), put(out, view.image.exposure);
   put_whole(out, static_cast<int>(r.algorithm)), put_whole(out, static_cast<int>(r.shading));
   put_whole(out, r.shadows), put_whole(out, r.max_depth), put(out, r.weight_cutoff);
-  put_whole(out, r.ray_budget), put_whole(out, r.seed);
+  put_whole(out, r.ray_budget), put_whole(out, r.seed), put_whole(out, static_cast<int>(r.terminator));
+  put_whole(out, static_cast<int>(r.filter));
   out += ";";
-  put_whole(out, r.samples.value_or(-1)), put(out, r.time_ms.value_or(-1.0));
-  for (const int pass : r.passes) put_whole(out, pass);
+  put_whole(out, r.samples.value_or(-1)), put(out, r.rmse.value_or(-1.0)), put(out, r.time_ms.value_or(-1.0));
+  put_whole(out, r.adaptive);
+  for (const double pass : r.passes) put(out, pass);
   return out;
 }
 

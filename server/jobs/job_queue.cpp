@@ -6,10 +6,7 @@
 namespace tilelight::server {
 namespace {
 
-// A running render's sums and the image of its passes so far.
-int64_t film_bytes(const RenderRequest& request) {
-  return int64_t{request.view.image.width} * request.view.image.height * 2 * 3 * static_cast<int64_t>(sizeof(float));
-}
+int64_t film_bytes(const RenderRequest& request) { return render_memory_bytes(request.view); }
 
 // A scene's document and what was parsed from it, about.
 int64_t scene_bytes(const RenderRequest& request) { return 3 * static_cast<int64_t>(request.scene->text.size()); }
@@ -210,7 +207,7 @@ void JobQueue::end(const WorkPtr& work, JobState state, std::string error) {
               {"priority", std::string(priority_name(work->request().priority))},
               {"width", int64_t{image.width}},
               {"height", int64_t{image.height}},
-              {"spp", int64_t{status.progress.spp}},
+              {"spp", status.progress.spp},
               {"stop", status.report.stop},
               {"queue_ms", status.timings.queue_ms},
               {"compile_ms", status.timings.compile_ms},

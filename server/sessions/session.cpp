@@ -6,6 +6,7 @@ namespace tilelight::server {
 bool Session::set_view(int64_t seq, View view, bool is_moving) {
   if (is_moving) {
     view.render.samples = 1;
+    view.render.rmse.reset();
     view.render.time_ms.reset();
     view.render.passes.clear();
   }

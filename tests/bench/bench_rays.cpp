@@ -42,10 +42,12 @@ Batches primary_rays(const ViewPlan& plan) {
   Batches batches(static_cast<size_t>(tile_count(image.width, image.height, kTilePx)));
   for (size_t i = 0; i < batches.size(); ++i) {
     const TileRect rect = tile_rect(static_cast<int>(i), image.width, image.height, kTilePx);
-    for_each_in_squares(rect, [&](int x, int y) {
-      const SamplePoint p = sample_point(x, y, 0, 0);
-      const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
-      batches[i].push_back({{ray.origin, ray.direction, {}}});
+    for_each_cell(rect, [&](const TileRect& cell) {
+      for_each_pixel(cell, [&](int x, int y) {
+        const SamplePoint p = sample_point(x, y, 0, 0);
+        const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
+        batches[i].push_back({{ray.origin, ray.direction, {}}});
+      });
     });
   }
   return batches;

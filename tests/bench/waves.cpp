@@ -23,10 +23,12 @@ double render_tile(const CompiledScene& scene, const ViewPlan& plan, const Frame
   };
   Batch rays;
   std::vector<Path> paths;
-  for_each_in_squares(rect, [&](int x, int y) {
-    const SamplePoint p = sample_point(x, y, 0, 0);
-    const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
-    rays.push_back({{ray.origin, ray.direction, {}}});
+  for_each_cell(rect, [&](const TileRect& cell) {
+    for_each_pixel(cell, [&](int x, int y) {
+      const SamplePoint p = sample_point(x, y, 0, 0);
+      const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
+      rays.push_back({{ray.origin, ray.direction, {}}});
+    });
   });
   paths.resize(rays.size());
 

@@ -84,18 +84,5 @@ TEST(Film, TilesCoverEveryPixelOnce) {
   }
 }
 
-TEST(Film, ResolvesToTheMeanOfItsSamplesPixelByPixel) {
-  Film film(5, 3);
-  TileView view = film.view({2, 1, 5, 3});
-  for (int i = 1; i <= 4; ++i) view.add(4, 2, static_cast<float>(i), 10.0f * i, 0.0f);
-  const Image image = film.resolve(4);
-  const size_t at = (2 * 5 + 4) * 3;
-  EXPECT_EQ(image.rgb[at], 2.5f);
-  EXPECT_EQ(image.rgb[at + 1], 25.0f);
-  double sum = 0.0;
-  for (float v : image.rgb) sum += v;
-  EXPECT_EQ(sum, 27.5);
-}
-
 }  // namespace
 }  // namespace tilelight

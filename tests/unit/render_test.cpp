@@ -296,35 +296,36 @@ TEST(PassSchedule, DoublesUpToTheSamplesAskedFor) {
   RenderSpec spec;
   spec.samples = 11;
   const PassSchedule schedule(spec);
-  std::vector<int> passes;
-  int done = 0;
-  while (true) {
-    const auto next = schedule.next(static_cast<int>(passes.size()), done, 0.0, 1.0);
-    if (next.samples == 0) {
+  std::vector<double> passes;
+  for (Standing standing;; ++standing.passes) {
+    const auto next = schedule.next(standing);
+    if (next.samples == 0.0) {
       EXPECT_EQ(next.stop, "samples");
       break;
     }
+    EXPECT_TRUE(next.for_all);
     passes.push_back(next.samples);
-    done += next.samples;
+    standing.spp += next.samples;
   }
-  EXPECT_EQ(passes, (std::vector<int>{1, 1, 2, 4, 3}));
+  EXPECT_EQ(passes, (std::vector<double>{1, 1, 2, 4, 3}));
 }
 
 TEST(PassSchedule, EndsAReplayByTheFirstRuleThatHolds) {
   RenderSpec spec;
+  spec.samples.reset();
   spec.passes = {1, 1, 2};
-  EXPECT_EQ(PassSchedule(spec).samples(), 4);
-  EXPECT_EQ(PassSchedule(spec).next(3, 4, 0, 1).stop, "passes");
+  EXPECT_EQ(PassSchedule(spec).expected_samples({}), 4);
+  EXPECT_EQ(PassSchedule(spec).next({.passes = 3, .spp = 4}).stop, "passes");
   spec.samples = 3;
   const PassSchedule cut(spec);
-  EXPECT_EQ(cut.samples(), 3);
-  EXPECT_EQ(cut.next(2, 2, 0, 1).samples, 1);
-  EXPECT_EQ(cut.next(3, 3, 0, 1).stop, "passes");
+  EXPECT_EQ(cut.expected_samples({}), 3);
+  EXPECT_EQ(cut.next({.passes = 2, .spp = 2}).samples, 1);
+  EXPECT_EQ(cut.next({.passes = 3, .spp = 3}).stop, "passes");
   spec.samples = 2;
-  EXPECT_EQ(PassSchedule(spec).next(2, 2, 0, 1).stop, "samples");
+  EXPECT_EQ(PassSchedule(spec).next({.passes = 2, .spp = 2}).stop, "samples");
   spec.time_ms = 5.0;
-  EXPECT_EQ(PassSchedule(spec).next(1, 1, 6.0, 1).stop, "time");
-  EXPECT_EQ(PassSchedule(spec).next(0, 0, 6.0, 1).samples, 1);
+  EXPECT_EQ(PassSchedule(spec).next({.passes = 1, .spp = 1, .elapsed_ms = 6.0}).stop, "time");
+  EXPECT_EQ(PassSchedule(spec).next({.elapsed_ms = 6.0}).samples, 1);
 }
 
 TEST(PassSchedule, CutsAPassToTheTimeThatIsLeft) {
@@ -332,10 +333,33 @@ TEST(PassSchedule, CutsAPassToTheTimeThatIsLeft) {
   spec.samples = 1000;
   spec.time_ms = 100.0;
   const PassSchedule schedule(spec);
-  EXPECT_EQ(schedule.next(0, 0, 0.0, 0.0).samples, 1);
-  EXPECT_EQ(schedule.next(5, 16, 60.0, 4.0).samples, 10);
-  EXPECT_EQ(schedule.next(6, 26, 98.0, 4.0).samples, 0);
-  EXPECT_EQ(schedule.next(6, 26, 98.0, 4.0).stop, "time");
+  EXPECT_EQ(schedule.next({}).samples, 1);
+  const auto cut = schedule.next({.passes = 5, .spp = 16, .elapsed_ms = 60.0, .ms_per_sample = 4.0});
+  EXPECT_NEAR(cut.samples, 8.0, 0.1);  // four fifths of 40 ms
+  EXPECT_FALSE(cut.for_all);
+  // The same passes in a replay without the rule: what is cut goes where the error is there too.
+  RenderSpec replay;
+  replay.samples.reset();
+  replay.passes = {16.0, cut.samples};
+  EXPECT_TRUE(PassSchedule(replay).next({}).for_all);
+  EXPECT_FALSE(PassSchedule(replay).next({.passes = 1, .spp = 16}).for_all);
+  const auto end = schedule.next({.passes = 6, .spp = 24, .elapsed_ms = 98.0, .ms_per_sample = 4.0});
+  EXPECT_EQ(end.samples, 0);
+  EXPECT_EQ(end.stop, "time");
+}
+
+TEST(PassSchedule, EndsOnceTheUpperEndOfTheErrorIsAsAsked) {
+  RenderSpec spec;
+  spec.samples = 1000;
+  spec.rmse = 0.01;
+  spec.adaptive = true;
+  const PassSchedule schedule(spec);
+  EXPECT_EQ(schedule.next({.passes = 5, .spp = 16, .rmse = 0.0099}).stop, "rmse");
+  EXPECT_EQ(schedule.next({.passes = 2, .spp = 2, .rmse = 0.0}).samples, 2) << "two samples tell too little";
+  const auto near = schedule.next({.passes = 5, .spp = 16, .rmse = 0.0101});
+  EXPECT_FALSE(near.for_all);
+  EXPECT_EQ(near.samples, 2);  // an eighth more
+  EXPECT_EQ(schedule.next({.passes = 5, .spp = 16, .rmse = 0.1}).samples, 16);
 }
 
 }  // namespace

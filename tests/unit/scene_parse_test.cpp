@@ -38,7 +38,7 @@ TEST(ParseScene, ReadsADocumentWithEverythingInIt) {
   EXPECT_EQ(p.scene.meshes[0].indices.size(), 12u);
   EXPECT_EQ(p.scene.meshes[1].normals.size(), 3u);
   EXPECT_EQ(p.view.camera->position, Vec3(4, 5, 9));
-  EXPECT_EQ(p.view.render.passes, (std::vector<int>{1, 1, 2}));
+  EXPECT_EQ(p.view.render.passes, (std::vector<double>{1, 1, 2}));
 }
 
 TEST(ParseScene, NeedsNothingButOneObject) {

@@ -16,8 +16,8 @@ using test::full_document;
 
 // Errors that compare values with each other, or text with a notation.
 bool is_beyond_schemas(const SceneError& error) {
-  static const std::set<std::string> kCodes = {"unknown_name", "bad_fen", "singular", "not_affine",
-                                               "no_visible_object"};
+  static const std::set<std::string> kCodes = {"unknown_name", "bad_fen",           "singular",
+                                               "not_affine",   "no_visible_object", "fractional_first_pass"};
   if (kCodes.contains(error.code)) return true;
   if (error.code == "wrong_length") {
     const auto found = [&](std::string_view text) { return error.detail.find(text) != std::string::npos; };
@@ -100,7 +100,7 @@ TEST(Schema, StatesTheDefaultsThatHold) {
 
 TEST(Schema, NamesNothingThatThisReleaseCannotDo) {
   const std::string schema = scene_schema_json(Limits{});
-  for (const char* word : {"zbuffer", "warnock", "roberts", "flat\"", "gouraud", "rmse", "asset", "tent", "gaussian"}) {
+  for (const char* word : {"zbuffer", "warnock", "roberts", "flat\"", "gouraud", "asset"}) {
     EXPECT_EQ(schema.find(word), std::string::npos) << word;
   }
 }

@@ -17,7 +17,7 @@ namespace tilelight::check {
 // A render of the document from its text on: linear RGB, and the passes that replay it.
 struct Bits {
   std::vector<float> rgb;
-  std::vector<int> passes;
+  std::vector<double> passes;
 };
 Bits bits_of(const std::shared_ptr<const CompiledScene>& scene, const View& view, TilePool& pool, int tile_px = 0);
 Bits bits_of(std::string_view json, TilePool& pool, int tile_px = 0);

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/film/error_map.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "renderer/base/elementary.h"
+#include "renderer/film/tone.h"
+
+namespace tilelight {
+namespace {
+
+// The variance of a mean is multiplied by this when its samples are doubled: n^-1.5 where an edge crosses the pixel.
+constexpr double kEdgeDecay = 0.35355339059327373;
+constexpr double kNormal95 = 1.96;
+constexpr float kConverged = static_cast<float>(2.0 / 255.0 / kNormal95);
+
+// Calibration, published in README.md.
+constexpr double kCalibration = 1.05;  // of the picture's rmse
+constexpr double kSystematic = 0.05;   // relative standard deviation of rmse over scenes, after it
+constexpr float kNeighbours = 0.5f;    // weight of the neighbours in a pixel's variance
+constexpr float kUnseen = 0.5f;        // what a pixel may have missed: so much of its contrast, over n
+
+// The sRGB curve by straight pieces: within 2e-5, and rising.
+class Curve {
+ public:
+  Curve() {
+    for (int i = 0; i <= kPieces; ++i)
+      knots_[static_cast<size_t>(i)] = static_cast<float>(srgb_from_linear(static_cast<double>(i) / kPieces));
+    knots_[kPieces + 1] = knots_[kPieces];
+  }
+  float operator()(float linear) const {
+    const float at = std::clamp(linear, 0.0f, 1.0f) * kPieces;
+    const int piece = static_cast<int>(at);
+    const float* knot = knots_.data() + piece;
+    return knot[0] + (at - static_cast<float>(piece)) * (knot[1] - knot[0]);
+  }
+  static constexpr int kPieces = 4096;
+
+ private:
+  std::array<float, kPieces + 2> knots_;
+};
+
+// How many differences a pixel of n samples has at a level: pairs of whole blocks.
+struct Pairs {
+  explicit Pairs(uint32_t samples) : length(sample_block_length(samples - 1)), blocks(samples / length) {}
+  uint32_t at(int level) const { return blocks >> (level + 1); }
+  uint32_t total() const { return at(0) + at(1) + at(2); }
+  uint32_t length, blocks;
+};
+
+// What multiplies the squared half difference of two blocks of a level to give the variance of the whole mean, if
+// doubling a block's samples multiplies its variance by `decay`: joining the two takes away 1 - decay of it. The whole
+// is made of aligned blocks by the binary digits of its samples, and has the sum of their errors: 40 samples are 32 and
+// 8, and the 8 spoil what the 32 have gained.
+std::array<double, 3> to_whole(double decay, uint32_t samples) {
+  const Pairs pairs(samples);
+  std::array<double, 3> out{};
+  for (int level = 0; level < 3; ++level) {
+    const double octaves_below = std::countr_zero(pairs.length) + level;
+    for (uint32_t rest = samples; rest != 0; rest &= rest - 1) {
+      const double share = static_cast<double>(rest & (~rest + 1)) / samples;
+      const double octaves = std::countr_zero(rest) - octaves_below;
+      out[static_cast<size_t>(level)] += share * share * elementary::exp2(elementary::log2(decay) * octaves);
+    }
+    out[static_cast<size_t>(level)] /= 1.0 - decay;
+  }
+  return out;
+}
+
+}  // namespace
+
+ErrorMap::ErrorMap(int width, int height, double exposure_stops)
+    : width_(width),
+      height_(height),
+      exposure_(static_cast<float>(elementary::exp2(exposure_stops))),
+      own_(static_cast<size_t>(width) * height),
+      shown_(own_.size() * 3),
+      levels_(static_cast<size_t>(tile_count(width, height, kCellPx))),
+      variances_(own_.size()),
+      cell_variances_(levels_.size()) {}
+
+float ErrorMap::displayed(float linear) const {
+  static const Curve curve;
+  return curve(linear * exposure_);
+}
+
+// Squared half differences, displayed: their sum at each level.
+ErrorMap::Levels ErrorMap::measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean) const {
+  const Pairs pairs(samples);
+  Levels out{};
+  float spread = 0.0f;
+  for (int level = 0; level < kLevels; ++level) {
+    const float block_samples = static_cast<float>(pairs.length << level);
+    for (uint32_t i = 0; i < kSampleBlocks >> (level + 1); ++i) {
+      if (i < pairs.at(level)) {
+        const float half = 0.5f * (sums[2 * i] - sums[2 * i + 1]) / block_samples;
+        out[static_cast<size_t>(level)] += half * half;
+        spread = std::max(spread, std::abs(half));
+      }
+      sums[i] = sums[2 * i] + sums[2 * i + 1];
+    }
+  }
+  if (spread == 0.0f) return out;
+  // From linear to displayed by the curve's rise around the mean.
+  const float reach = std::max(spread, 0x1p-12f / exposure_);
+  const float slope = (displayed(mean + reach) - displayed(mean - reach)) / (2.0f * reach);
+  for (float& level : out) level *= slope * slope;
+  return out;
+}
+
+void ErrorMap::measure(const Film& film, const Image& image, const TileRect& part) {
+  const SamplePlanes planes = film.planes();
+  std::array<double, kLevels> weights{};
+  uint32_t weights_of = 0;
+  for_each_cell(part, [&](const TileRect& cell) {
+    const size_t at = film.cell_at(cell.x0, cell.y0);
+    const uint32_t samples = film.samples()[at];
+    if (samples == 0) return;
+    if (samples != weights_of) weights = to_whole(kEdgeDecay, weights_of = samples);
+    const Pairs pairs(samples);
+    const uint32_t blocks = (samples - 1) / pairs.length + 1;
+    std::array<double, kLevels> sums{};
+    for_each_pixel(cell, [&](int x, int y) {
+      const size_t pixel = static_cast<size_t>(y) * width_ + x;
+      double own = 0.0;
+      for (size_t i = pixel * 3; i < pixel * 3 + 3; ++i) {
+        std::array<float, kSampleBlocks> block_sums{};
+        for (uint32_t block = 0; block < blocks; ++block) block_sums[block] = planes[block][i];
+        const Levels levels = measure_channel(block_sums, samples, image.rgb[i]);
+        shown_[i] = static_cast<uint8_t>(255.0f * displayed(image.rgb[i]) + 0.5f);
+        for (size_t level = 0; level < kLevels; ++level) {
+          sums[level] += levels[level];
+          own += levels[level] * weights[level];
+        }
+      }
+      own_[pixel] = samples < 2 ? 0.0f : static_cast<float>(own / (3.0 * pairs.total()));
+    });
+    std::transform(sums.begin(), sums.end(), levels_[at].begin(), [](double sum) { return static_cast<float>(sum); });
+  });
+}
+
+void ErrorMap::pool(const Film& film) {
+  // Of each level that has one above: the mean squared difference there, and on the level above.
+  double shorter = 0.0, longer = 0.0;
+  is_known_ = true;
+  for (size_t i = 0; i < levels_.size(); ++i) {
+    if (film.samples()[i] < 2) {
+      is_known_ = false;
+      continue;
+    }
+    const Pairs pairs(film.samples()[i]);
+    for (int level = 0; level + 1 < kLevels && pairs.at(level + 1) > 0; ++level) {
+      shorter += static_cast<double>(levels_[i][static_cast<size_t>(level)]) / pairs.at(level);
+      longer += static_cast<double>(levels_[i][static_cast<size_t>(level) + 1]) / pairs.at(level + 1);
+    }
+  }
+  // Between what is smooth and what is random.
+  const double decay = shorter > 0.0 ? std::clamp(longer / shorter, 0.0625, 0.5) : kEdgeDecay;
+  double as_edge = 0.0, as_decayed = 0.0;
+  uint32_t weights_of = 0;
+  std::array<double, kLevels> edge{}, decayed{};
+  for (size_t i = 0; i < levels_.size(); ++i) {
+    const uint32_t samples = film.samples()[i];
+    if (samples < 2) continue;
+    if (samples != weights_of) {
+      edge = to_whole(kEdgeDecay, samples);
+      decayed = to_whole(decay, samples);
+      weights_of = samples;
+    }
+    const double pairs = Pairs(samples).total();
+    for (size_t level = 0; level < kLevels; ++level) {
+      as_edge += levels_[i][level] * edge[level] / pairs;
+      as_decayed += levels_[i][level] * decayed[level] / pairs;
+    }
+  }
+  scale_ = as_edge > 0.0 ? static_cast<float>(kCalibration * kCalibration * as_decayed / as_edge) : 1.0f;
+}
+
+// The mean square difference to the neighbours, displayed.
+float ErrorMap::contrast(int x, int y) const {
+  const uint8_t* here = &shown_[(static_cast<size_t>(y) * width_ + x) * 3];
+  int sum = 0, count = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+      const uint8_t* there = &shown_[(static_cast<size_t>(v) * width_ + u) * 3];
+      for (int c = 0; c < 3; ++c) sum += (there[c] - here[c]) * (there[c] - here[c]);
+      ++count;
+    }
+  }
+  return count == 1 ? 0.0f : static_cast<float>(sum) / (3.0f * 255.0f * 255.0f * static_cast<float>(count - 1));
+}
+
+void ErrorMap::spread(const Film& film, const TileRect& part) {
+  for_each_cell(part, [&](const TileRect& cell) {
+    const size_t at = film.cell_at(cell.x0, cell.y0);
+    const float n = static_cast<float>(std::max(1u, film.samples()[at]));
+    float sum = 0.0f;
+    for_each_pixel(cell, [&](int x, int y) {
+      float around = 0.0f;
+      int count = -1;
+      for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u, ++count)
+          around += own_[static_cast<size_t>(v) * width_ + u];
+      }
+      const size_t pixel = static_cast<size_t>(y) * width_ + x;
+      const float own = own_[pixel];
+      const float neighbours = count > 0 ? (around - own) / static_cast<float>(count) : own;
+      const float seen = scale_ * (own + kNeighbours * (neighbours - own));
+      const float unseen = kUnseen / n;
+      variances_[pixel] = seen + unseen * unseen * contrast(x, y);
+      sum += variances_[pixel];
+    });
+    cell_variances_[at] = sum;
+  });
+}
+
+ErrorSummary ErrorMap::summary() const {
+  ErrorSummary out;
+  out.is_known = is_known_;
+  if (!is_known_) return out;
+  double sum = 0.0, squares = 0.0;
+  float most = 0.0f;
+  std::array<uint32_t, 1 << 13> counts{};  // by the upper bits of the variance: steps of 1/16 octave
+  constexpr int kShift = 32 - 13;
+  for (size_t i = 0; i < own_.size(); ++i) {
+    const double own = static_cast<double>(own_[i]) * scale_;
+    sum += own;
+    squares += own * own;
+    most = std::max(most, variances_[i]);
+    out.unconverged += variances_[i] > kConverged * kConverged;
+    ++counts[std::bit_cast<uint32_t>(variances_[i]) >> kShift];
+  }
+  const double pixels = static_cast<double>(own_.size());
+  out.rmse = std::sqrt(sum / pixels);
+  // Pixels are scrambled apart, so their errors are independent; an estimate from seven differences is good to its
+  // half.
+  const double chance = sum > 0.0 ? squares / (sum * sum) : 0.0;
+  const double reach = kNormal95 * std::sqrt(kSystematic * kSystematic + chance);
+  out.low = out.rmse * std::max(0.0, 1.0 - reach);
+  out.high = out.rmse * (1.0 + reach);
+  uint64_t above = 0;
+  uint32_t bucket = static_cast<uint32_t>(counts.size());
+  while (bucket > 0 && (above += counts[--bucket]) <= own_.size() / 100) continue;
+  const float edge = std::min(most, std::bit_cast<float>((bucket + 1) << kShift));
+  out.p99 = kNormal95 * std::sqrt(edge);
+  out.most = kNormal95 * std::sqrt(most);
+  return out;
+}
+
+std::vector<float> ErrorMap::bounds() const {
+  std::vector<float> out(variances_.size());
+  std::transform(variances_.begin(), variances_.end(), out.begin(),
+                 [](float variance) { return static_cast<float>(kNormal95) * std::sqrt(variance); });
+  return out;
+}
+
+}  // namespace tilelight

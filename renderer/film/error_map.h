@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// ErrorMap: how wrong a picture is, told from its own samples. A pixel's sequence lies in aligned blocks; by how much
+// two neighbouring blocks differ tells how much error goes when they are joined, and so how much is left. The error of
+// a pixel is the root mean square over its channels of displayed - true, both after exposure, clamping and the sRGB
+// curve, before rounding to 8 bits: black is 0 and white 1. README.md tells the formulas, and how well they do.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/film/film.h"
+
+namespace tilelight {
+
+// The error of a whole picture.
+struct ErrorSummary {
+  bool is_known = false;         // false: nothing is, for some pixels have fewer than two samples
+  double rmse = 0.0;             // over pixels and channels
+  double low = 0.0, high = 0.0;  // the true rmse lies between them for 95 % of pictures
+  double p99 = 0.0, most = 0.0;  // of the pixels' bounds: 99 % are below the first, none is above the second
+  int64_t unconverged = 0;       // pixels whose bound is over two steps of 8 bits
+};
+
+// After each pass: measure() every part of the image, pool() once, spread() every part. Many threads may do parts that
+// share no cell; no answer depends on parts or threads.
+class ErrorMap {
+ public:
+  static constexpr int64_t kPixelBytes = 3 * sizeof(float) + 3;  // about, with bounds()
+
+  ErrorMap(int width, int height, double exposure_stops);
+
+  // What the pixels' blocks say. image: the film's, resolved.
+  void measure(const Film& film, const Image& image, const TileRect& part);
+  // How fast the error falls with more samples, in all the image.
+  void pool(const Film& film);
+  // Each pixel leans on its neighbours, which may have met what it has missed.
+  void spread(const Film& film, const TileRect& part);
+
+  ErrorSummary summary() const;
+  // By cell of the film: the sum of its pixels' variances.
+  const std::vector<float>& cell_variances() const { return cell_variances_; }
+  // By pixel: its error is below in 95 % of cases, or more.
+  std::vector<float> bounds() const;
+
+ private:
+  // By distance in octaves: blocks of the shortest length, twice and four times that.
+  static constexpr int kLevels = 3;
+  using Levels = std::array<float, kLevels>;
+
+  float displayed(float linear) const;
+  Levels measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean) const;
+  float contrast(int x, int y) const;
+
+  int width_, height_;
+  float exposure_;  // a factor
+  bool is_known_ = false;
+  float scale_ = 1.0f;          // of own_, once the decay is known
+  std::vector<float> own_;      // by pixel: variance if an edge crossed it, from its own samples
+  std::vector<uint8_t> shown_;  // by pixel and channel: as displayed, rounded
+  std::vector<Levels> levels_;  // by cell: by how much its blocks differ
+  std::vector<float> variances_;
+  std::vector<float> cell_variances_;
+};
+
+}  // namespace tilelight

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixel filter, by importance: samples lie as thickly as the filter weighs, so that a pixel stays the plain mean of
+// its own samples (Ernst, Stamminger, Greiner 2006, "Filter importance sampling"). Pure.
+#pragma once
+
+#include "renderer/film/sampling.h"
+#include "renderer/scene/scene.h"
+
+namespace tilelight {
+
+// How far a pixel's samples may lie outside it, pixels.
+inline constexpr int kFilterReachPx = 1;
+
+// A point of [0, 1)^2, uniform, to where the filter has it, relative to the pixel's first corner. box: inside the
+// pixel. tent: up to a pixel from its middle. gaussian: of standard deviation half a pixel, up to 1.5 from the middle.
+SamplePoint through_filter(PixelFilter filter, SamplePoint point);
+
+}  // namespace tilelight
