@@ -13,6 +13,7 @@
 #include "renderer/base/result.h"         // IWYU pragma: export
 #include "renderer/compile/compile.h"     // IWYU pragma: export
 #include "renderer/film/film.h"           // IWYU pragma: export
+#include "renderer/film/heat_map.h"       // IWYU pragma: export
 #include "renderer/film/image_io.h"       // IWYU pragma: export
 #include "renderer/render/explain.h"      // IWYU pragma: export
 #include "renderer/render/predict.h"      // IWYU pragma: export

@@ -18,7 +18,9 @@ using Run = std::function<ExitCode()>;
 void add_view_options(CLI::App& app, ViewOptions& view) {
   app.add_option("--width", view.width, "Width of the image, in pixels");
   app.add_option("--height", view.height, "Height of the image, in pixels");
-  app.add_option("--samples", view.samples, "Samples a pixel");
+  app.add_option("--samples", view.samples, "Stop at that many samples a pixel; stop rules replace the scene's own");
+  app.add_option("--rmse", view.rmse, "Stop once the error is below: root mean square of the display's range 0 to 1");
+  app.add_option("--time-ms", view.time_ms, "Stop at that time, in milliseconds");
 }
 
 void add_isa_option(CLI::App& app, std::string& isa) {
@@ -37,7 +39,9 @@ CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--tile", arguments.tile_px, "Edge of a tile, in pixels; the image is the same")
       ->check(CLI::Range(1, 65536));
   add_isa_option(app, arguments.isa);
-  app.add_option("--report", arguments.report, "Also write the report, JSON: rays and time pass by pass; - prints it");
+  app.add_option("--report", arguments.report, "Also write the report, JSON: error and time by pass; - prints it");
+  app.add_option("--error-map", arguments.error_map,
+                 "Also write the error by pixel: .png or .jpg in false colours, .exr as numbers");
   return output;
 }
 
@@ -61,6 +65,7 @@ void add_render(CLI::App& app, Run& run) {
       "Examples:\n"
       "  tilelight render scene.json -o scene.png\n"
       "  tilelight render scene.json -o big.exr --width 3840 --height 2160 --samples 64 --report report.json\n"
+      "  tilelight render scene.json -o scene.png --rmse 0.004 --error-map error.png\n"
       "  tilelight render scene.json --pixel 640,360\n"
       "  generate-scene | tilelight render - -o out.jpg");
   command->callback([options, output, pixel, &run] {

@@ -20,9 +20,10 @@ ExitCode complain(ExitCode code, const std::string& what) {
 ExitCode check_arguments(const RenderArguments& arguments) {
   if (auto isa = select_isa(arguments.isa); !isa) return complain(kBadInput, isa.error().detail);
   if (!arguments.pixel.empty()) return kOk;
-  if (!image_format_from_extension(arguments.output))
-    return complain(kBadInput, arguments.output + ": the ending names the format: .png, .jpg or .exr");
-  for (const std::string& path : {arguments.output, arguments.report})
+  for (const std::string& path : {arguments.output, arguments.error_map})
+    if (!path.empty() && !image_format_from_extension(path))
+      return complain(kBadInput, path + ": the ending names the format: .png, .jpg or .exr");
+  for (const std::string& path : {arguments.output, arguments.report, arguments.error_map})
     if (auto writable = check_can_write(path); !path.empty() && !writable)
       return complain(kFailed, writable.error().detail);
   return kOk;
@@ -50,15 +51,30 @@ ExitCode write_results(const Render& render, const ViewPlan& plan, const RenderA
   if (!bytes) return complain(kFailed, bytes.error().detail);
   if (is_interrupted()) return kInterrupted;
   if (auto written = write_output(arguments.output, *bytes); !written) return complain(kFailed, written.error().detail);
+  if (!arguments.error_map.empty()) {
+    const auto map_format = image_format_from_extension(arguments.error_map);
+    const auto& [width, height, exposure] = plan.view.image;
+    const auto bounds = render.error_bounds();
+    const auto map = encode_image(
+        *map_format == ImageFormat::exr ? error_image(width, height, *bounds) : heat_map(width, height, *bounds), 0.0,
+        *map_format);
+    if (!map) return complain(kFailed, map.error().detail);
+    if (auto written = write_output(arguments.error_map, *map); !written)
+      return complain(kFailed, written.error().detail);
+  }
   if (arguments.report.empty()) return kOk;
   const std::string report = report_json(render.report(), plan.plan) + "\n";
   if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
   return kOk;
 }
 
-void print_summary(const RenderArguments& arguments, const ViewPlan& plan, const RenderProgress& progress) {
-  std::fprintf(stderr, "%s: %d x %d, %.6g samples a pixel, %.2f s (%s on %s)\n", arguments.output.c_str(),
-               plan.view.image.width, plan.view.image.height, progress.spp, progress.elapsed_ms / 1000.0,
+void print_summary(const RenderArguments& arguments, const ViewPlan& plan, const Render& render) {
+  const RenderProgress progress = render.progress();
+  const ErrorSummary error = render.report().points.back().error;
+  char rmse[64] = "";
+  if (error.is_known) std::snprintf(rmse, sizeof rmse, "rmse %.2g (%.2g to %.2g), ", error.rmse, error.low, error.high);
+  std::fprintf(stderr, "%s: %d x %d, %.6g samples a pixel, %s%.2f s (%s on %s)\n", arguments.output.c_str(),
+               plan.view.image.width, plan.view.image.height, progress.spp, rmse, progress.elapsed_ms / 1000.0,
                plan.plan.kernel.c_str(), plan.plan.isa.c_str());
 }
 
@@ -86,7 +102,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   if (end.state == RenderState::cancelled) return complain(kInterrupted, "interrupted; nothing was written");
   if (end.state == RenderState::failed) return complain(kFailed, "the render failed: " + end.error);
   const ExitCode code = write_results(*render, plan, arguments);
-  if (code == kOk && line.is_terminal()) print_summary(arguments, plan, end);
+  if (code == kOk && line.is_terminal()) print_summary(arguments, plan, *render);
   return code;
 }
 

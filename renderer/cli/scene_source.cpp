@@ -11,12 +11,22 @@ namespace {
 // The options as a view document, so that they meet the same limits and the same words as a scene's own.
 std::string view_json(const ViewOptions& options) {
   std::string image, render;
-  auto add = [](std::string& members, const char* name, const std::optional<int>& value) {
-    if (value) members += (members.empty() ? "\"" : ", \"") + std::string(name) + "\": " + std::to_string(*value);
+  const auto add = [](std::string& members, const char* name, const std::string& value) {
+    members += (members.empty() ? "\"" : ", \"") + std::string(name) + "\": " + value;
   };
-  add(image, "width", options.width);
-  add(image, "height", options.height);
-  add(render, "samples", options.samples);
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return std::string(text);
+  };
+  if (options.width) add(image, "width", number(*options.width));
+  if (options.height) add(image, "height", number(*options.height));
+  if (options.samples || options.rmse || options.time_ms) {
+    add(render, "samples", options.samples ? number(*options.samples) : "null");
+    add(render, "rmse", options.rmse ? number(*options.rmse) : "null");
+    add(render, "time_ms", options.time_ms ? number(*options.time_ms) : "null");
+    add(render, "passes", "null");
+  }
   return R"({"image": {)" + image + R"(}, "render": {)" + render + "}}";
 }
 

@@ -13,8 +13,10 @@
 namespace tilelight::cli {
 
 // What the command line changes in a scene's view.
+// Options that say something of the view. A stop rule among them replaces those of the scene.
 struct ViewOptions {
   std::optional<int> width, height, samples;
+  std::optional<double> rmse, time_ms;
 };
 
 struct SceneText {

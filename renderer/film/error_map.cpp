@@ -19,7 +19,7 @@ constexpr float kConverged = static_cast<float>(2.0 / 255.0 / kNormal95);
 constexpr double kCalibration = 1.05;  // of the picture's rmse
 constexpr double kSystematic = 0.05;   // relative standard deviation of rmse over scenes, after it
 constexpr float kNeighbours = 0.5f;    // weight of the neighbours in a pixel's variance
-constexpr float kUnseen = 0.5f;        // what a pixel may have missed: so much of its contrast, over n
+constexpr float kUnseen = 1.0f;        // what a pixel may have missed: so much of its contrast, over n
 
 // The sRGB curve by straight pieces: within 2e-5, and rising.
 class Curve {

@@ -11,10 +11,13 @@ namespace tilelight {
 namespace {
 
 // Before samples go where the error is, every pixel takes as many as tell its error.
-constexpr double kFirstForAll = 8.0;
+constexpr double kFirstForAll = 4.0;
 
-// Samples for each one there is, to bring the error down to `rmse`: it falls with n^-0.75 or faster.
-double growth(double error, double rmse) { return elementary::pow(error / rmse, 4.0 / 3.0); }
+// Samples for each one there is, to bring the error down to `rmse`: it falls with n^-0.75, and faster where samples go
+// where the error is.
+double growth(double error, double rmse, bool adaptive) {
+  return elementary::pow(error / rmse, adaptive ? 2.0 / 3.0 : 4.0 / 3.0);
+}
 
 }  // namespace
 
@@ -37,7 +40,7 @@ PassSchedule::Next PassSchedule::replay(const Standing& standing) const {
 
 PassSchedule::Next PassSchedule::next(const Standing& standing) const {
   // A pass that goes where the error is gives whole cells their samples, and leaves less than the next one takes.
-  constexpr double kLeast = 1.0 / 64.0;
+  const double kLeast = std::max(1.0, standing.spp / 4.0) / 64.0;
   if (!replay_.empty() && standing.passes >= static_cast<int>(replay_.size())) return {0.0, true, "passes"};
   if (samples_ - standing.spp < kLeast) return {0.0, true, "samples"};
   if (standing.rmse <= rmse_ && standing.spp >= kFirstForAll) return {0.0, true, "rmse"};
@@ -48,18 +51,21 @@ PassSchedule::Next PassSchedule::next(const Standing& standing) const {
   const bool is_spent = adaptive_ && standing.spp >= kFirstForAll;
   double wanted = standing.spp;
   if (is_spent && rmse_ > 0.0 && standing.rmse < std::numeric_limits<double>::infinity()) {
-    const double eighths = std::ceil(8.0 * (growth(standing.rmse, rmse_) - 1.0));
-    wanted *= std::clamp(eighths, 1.0, 8.0) / 8.0;
+    // Short passes: each sees better than the one before where the error is, and none goes far beyond the goal.
+    const double eighths = std::ceil(8.0 * (growth(standing.rmse, rmse_, true) - 1.0));
+    wanted *= std::clamp(eighths, 1.0, 4.0) / 8.0;
   }
   wanted = std::min(wanted, samples_ - standing.spp);
   // What is left when less than this remains is too little to be worth a pass.
   const double left_ms = time_ms_ - standing.elapsed_ms;
   if (left_ms < std::max(3.0, 0.02 * time_ms_)) return {0.0, true, "time"};
-  constexpr double kCaution = 0.8;  // passes differ in what a sample costs
-  const double fitting = kCaution * left_ms / standing.ms_per_sample;
-  if (fitting < wanted) {
+  // Passes differ in what a sample costs: where the error is, it is dearer.
+  const auto fitting = [&](bool for_all) {
+    return (!for_all && standing.was_for_all ? 0.35 : 0.8) * left_ms / standing.ms_per_sample;
+  };
+  if (fitting(!is_spent) < wanted) {
     // No whole number, so that a replay sends it where the error is, as is done here.
-    wanted = (std::floor(fitting / kLeast) - 0.5) * kLeast;
+    wanted = (std::floor(std::min(wanted, fitting(false)) / kLeast) - 0.5) * kLeast;
     if (wanted < kLeast) return {0.0, true, "time"};
   }
   return {wanted, is_for_all(standing, wanted), {}};
@@ -69,7 +75,7 @@ double PassSchedule::expected_samples(const Standing& standing) const {
   double expected = replay_.empty() ? samples_ : std::accumulate(replay_.begin(), replay_.end(), 0.0);
   expected = std::min(expected, samples_);
   if (rmse_ > 0.0 && standing.rmse < std::numeric_limits<double>::infinity())
-    expected = std::min(expected, standing.spp * std::max(1.0, growth(standing.rmse, rmse_)));
+    expected = std::min(expected, standing.spp * std::max(1.0, growth(standing.rmse, rmse_, adaptive_)));
   return expected;
 }
 

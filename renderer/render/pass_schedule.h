@@ -17,6 +17,7 @@ struct Standing {
   double spp = 0.0;                                       // samples a pixel so far: the mean over pixels
   double elapsed_ms = 0.0;                                // since its start
   double ms_per_sample = 0.0;                             // a pixel's; by its last pass
+  bool was_for_all = true;                                // that pass gave every pixel as many
   double rmse = std::numeric_limits<double>::infinity();  // the upper end of the estimate
 };
 

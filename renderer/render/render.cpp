@@ -276,7 +276,8 @@ class TileRender final : public Render, public WorkSource {
       standing_ = {.passes = standing_.passes + 1,
                    .spp = spp,
                    .elapsed_ms = elapsed,
-                   .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp)};
+                   .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp),
+                   .was_for_all = is_for_all_};
       if (error.is_known) standing_.rmse = error.high;
       image_ = std::move(next_image_);
       error_bounds_ = std::move(error_bounds);
@@ -321,6 +322,7 @@ class TileRender final : public Render, public WorkSource {
     film_.grow(most);
     const std::lock_guard lock(mutex_);
     pass_samples_ = next.samples;
+    is_for_all_ = next.for_all;
     pass_length_ = std::max(1u, longest);
     open_step(Stage::trace, 0);
   }
@@ -406,6 +408,7 @@ class TileRender final : public Render, public WorkSource {
   Clock::time_point end_, step_start_;
   Standing standing_;
   double pass_samples_ = 0.0;
+  bool is_for_all_ = true;
   uint32_t pass_length_ = 1;  // samples of the cell that takes most
   Stage stage_ = Stage::trace;
   uint32_t step_first_ = 0, step_samples_ = 1;  // of each cell's samples in the pass

@@ -83,7 +83,8 @@ class Render {
   virtual bool wait_ms(double ms) const = 0;
 };
 
-// The report as a JSON object.
+// The report as a JSON object, and its curve of error against time as an SVG document.
 std::string report_json(const RenderReport& report, const Plan& plan);
+std::string report_svg(const RenderReport& report);
 
 }  // namespace tilelight

@@ -34,11 +34,13 @@ std::vector<uint32_t> spend(const Film& film, const std::vector<float>& variance
   });
   std::sort(offers.begin(), offers.end());
   std::vector<uint32_t> targets = film.samples();
-  double left = samples * film.width() * static_cast<double>(film.height());
+  int64_t left = static_cast<int64_t>(samples * film.width() * static_cast<double>(film.height()));
+  bool is_any = false;
   for (const Offer& offer : offers) {
-    left -= static_cast<double>(offer.cost);
-    if (left < 0.0) break;
+    if (is_any && offer.cost > left) break;
+    left -= offer.cost;
     targets[offer.cell] *= 2;
+    is_any = true;
   }
   return targets;
 }

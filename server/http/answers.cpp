@@ -76,6 +76,25 @@ std::string server_timing(const WorkStatus& status) {
   return text;
 }
 
+::tl::expected<Layer, Problem> read_layer(const Request& request) {
+  const auto layer = request.param("layer").value_or("color");
+  if (layer == "color") return Layer::color;
+  if (layer == "error") return Layer::error;
+  return problem(400, "bad_query", "layer must be color or error");
+}
+
+Result<EncodedPtr> encode_layer(Services& services, Layer layer, const Image& image,
+                                const std::vector<float>& error_bounds, double exposure_stops, ImageFormat format) {
+  const auto encode = [&] {
+    if (layer == Layer::color) return encode_tagged(image, exposure_stops, format);
+    const bool is_numbers = format == ImageFormat::exr;
+    return encode_tagged(is_numbers ? error_image(image.width, image.height, error_bounds)
+                                    : heat_map(image.width, image.height, error_bounds),
+                         0.0, format);
+  };
+  return services.pool.submit(Priority::interactive, encode).get();
+}
+
 std::string render_info(double spp, std::string_view stop, const RenderReport& report) {
   // Structured fields (RFC 8941) know decimals of three places and no exponents.
   const auto decimal = [](double value, int places) {

@@ -77,6 +77,12 @@ Response accepted_response(const JobRecord& record, const Request& request);
 ::tl::unexpected<Problem> ended_without_image(const WorkStatus& status);
 
 std::string server_timing(const WorkStatus& status);
+// What of a picture is asked for by ?layer=.
+enum class Layer { color, error };
+::tl::expected<Layer, Problem> read_layer(const Request& request);
+// On the pool. error_bounds: by pixel of the image.
+Result<EncodedPtr> encode_layer(Services& services, Layer layer, const Image& image,
+                                const std::vector<float>& error_bounds, double exposure_stops, ImageFormat format);
 std::string render_info(double spp, std::string_view stop, const RenderReport& report);
 
 }  // namespace tilelight::server

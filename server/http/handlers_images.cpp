@@ -17,16 +17,22 @@ namespace {
   return *image_format_from_media_type(*type);
 }
 
-Reply partial_image(Services& services, const RenderWork& work, ImageFormat format) {
-  const auto image = work.image();
+Reply partial_image(Services& services, const RenderWork& work, Layer layer, ImageFormat format) {
+  const auto [image, error_bounds] = work.picture();
   if (!image)
     return problem(409, "not_ready",
                    "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
   const double exposure = work.request().view.image.exposure;
-  auto encoded =
-      services.pool.submit(Priority::interactive, [&] { return encode_tagged(*image, exposure, format); }).get();
+  auto encoded = encode_layer(services, layer, *image, *error_bounds, exposure, format);
   if (!encoded) return problem(500, "internal", "the image could not be encoded");
   return image_response(work, *encoded, format).with("Cache-Control", "no-store");
+}
+
+// Of a render that is done. Errors: expired, or the encoder's.
+Result<EncodedPtr> error_layer(Services& services, const RenderWork& work, ImageFormat format) {
+  const auto [image, error_bounds] = work.picture();
+  if (!image) return fail("expired", "the error by pixel is no longer kept; submit the render again");
+  return encode_layer(services, Layer::error, *image, *error_bounds, 0.0, format);
 }
 
 // Known before rendering: the same scene, view and version give the same bytes.
@@ -49,13 +55,15 @@ Reply get_render_image(Services& services, const Request& request) {
   if (!work) return problem(410, "expired", "the image is no longer kept; submit the render again");
   const bool wants_partial = request.param("partial") == "1";
   const JobState state = record->status.state;
+  const auto layer = read_layer(request);
+  if (!layer) return ::tl::unexpected(layer.error());
   if (state != JobState::done) {
-    if (wants_partial) return partial_image(services, *work, *format);
+    if (wants_partial) return partial_image(services, *work, *layer, *format);
     const std::string name(job_state_name(state));
     return problem(409, is_final(state) ? name : "not_ready",
                    "the render is " + name + (is_final(state) ? "" : "; ?partial=1 shows what there is"));
   }
-  auto image = work->encoded(*format, services.pool);
+  auto image = *layer == Layer::color ? work->encoded(*format, services.pool) : error_layer(services, *work, *format);
   if (!image) {
     const bool is_expired = image.error().code == "expired";
     return problem(is_expired ? 410 : 500, is_expired ? "expired" : "internal",

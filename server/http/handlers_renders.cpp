@@ -188,12 +188,18 @@ Reply delete_render(Services& services, const Request& request) {
 Reply get_render_report(Services& services, const Request& request) {
   const auto record = services.jobs.find(request.args[0]);
   if (!record) return no_such_render();
-  const auto type = best_offer(request, {"application/json", "text/csv"});
-  if (!type) return problem(406, "not_acceptable", "a report can be had as application/json or text/csv");
-  const bool is_csv = *type == "text/csv";
+  const auto type = best_offer(request, {"application/json", "text/csv", "image/svg+xml"});
+  if (!type)
+    return problem(406, "not_acceptable", "a report can be had as application/json, text/csv or image/svg+xml");
+  const RenderReport& report = record->status.report;
   Response response{200, {}, std::string(*type), ""};
-  response.body = is_csv ? report_csv(record->status.report)
-                         : report_json(record->status.report, record->status.plan.value_or(Plan{}));
+  if (*type == "text/csv") {
+    response.body = report_csv(report);
+  } else if (*type == "image/svg+xml") {
+    response.body = report_svg(report);
+  } else {
+    response.body = report_json(report, record->status.plan.value_or(Plan{}));
+  }
   response.with("Vary", "Accept").with("Cache-Control", "no-cache");
   return response;
 }

@@ -55,6 +55,8 @@ Reply get_session_frame(Services& services, const Request& request) {
   const auto type = best_offer(request, {"image/png", "image/jpeg"});
   if (!type) return problem(406, "not_acceptable", "a frame can be had as image/png or image/jpeg");
   const ImageFormat format = *image_format_from_media_type(*type);
+  const auto layer = read_layer(request);
+  if (!layer) return ::tl::unexpected(layer.error());
   auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   const auto frame = session->wait_frame(*after, request.gone, after_ms(wait_seconds(request, kFrameWaitS) * 1000.0));
@@ -66,9 +68,7 @@ Reply get_session_frame(Services& services, const Request& request) {
     return problem(500, "render_failed", "the render of this view failed inside the server; another view may do");
   }
   const auto start = Steady::now();
-  auto encoded =
-      services.pool.submit(Priority::interactive, [&] { return encode_tagged(*frame->image, frame->exposure, format); })
-          .get();
+  auto encoded = encode_layer(services, *layer, *frame->image, *frame->error_bounds, frame->exposure, format);
   if (!encoded) return problem(500, "internal", "the frame could not be encoded");
   services.metrics.add("tilelight_session_frames_total", "");
   char timing[96];
@@ -77,7 +77,7 @@ Reply get_session_frame(Services& services, const Request& request) {
       .with("Frame-Seq", std::to_string(frame->seq))
       .with("View-Seq", std::to_string(frame->view_seq))
       .with("Frame-Final", frame->is_final ? "?1" : "?0")
-      .with("Render-Info", render_info(frame->progress.spp, frame->stop, {}))
+      .with("Render-Info", render_info(frame->progress.spp, frame->is_final ? frame->report.stop : "", frame->report))
       .with("Server-Timing", timing)
       .with("Cache-Control", "no-store");
 }

@@ -4,6 +4,12 @@
 #include "renderer/base/hash.h"
 
 namespace tilelight::server {
+namespace {
+
+// Of one moment: a pass that ends between the two calls brings another map, which is that of a finer image.
+RenderWork::Picture picture_of(const Render& render) { return {render.image(), render.error_bounds()}; }
+
+}  // namespace
 
 RenderWork::RenderWork(RenderRequest request, std::string key, int64_t created_ms)
     : request_(std::move(request)), key_(std::move(key)) {
@@ -38,12 +44,12 @@ bool RenderWork::wait_end(std::stop_token gone, Steady::time_point until) const 
   return changed_.wait_until(lock, gone, until, [&] { return is_final(status_.state); });
 }
 
-std::shared_ptr<const Image> RenderWork::image() const {
+RenderWork::Picture RenderWork::picture() const {
   std::unique_lock lock(mutex_);
-  if (image_ || !render_) return image_;
+  if (picture_.image || !render_) return picture_;
   const auto render = render_;
   lock.unlock();
-  return render->image();
+  return picture_of(*render);
 }
 
 std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> RenderWork::claim(
@@ -54,13 +60,13 @@ std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>
   auto promise = std::make_shared<std::promise<Result<EncodedPtr>>>();
   Encoding future = promise->get_future().share();
   // Without the linear image there is nothing to claim, and the answer is no promise for later.
-  if (image_) encodings_[format] = future;
+  if (picture_.image) encodings_[format] = future;
   return {future, promise};
 }
 
 Result<EncodedPtr> RenderWork::encode(ImageFormat format) {
   std::unique_lock lock(mutex_);
-  const auto image = image_;
+  const auto image = picture_.image;
   lock.unlock();
   if (!image) return fail("expired", "the linear image is no longer kept; only formats encoded before are");
   const auto start = Steady::now();
@@ -94,13 +100,14 @@ Result<EncodedPtr> RenderWork::encode_here(ImageFormat format) {
 
 void RenderWork::drop_image() {
   const std::lock_guard lock(mutex_);
-  image_ = nullptr;
+  picture_ = {};
 }
 
 int64_t RenderWork::result_bytes() const {
   const std::lock_guard lock(mutex_);
-  const auto image_bytes = image_ ? static_cast<int64_t>(image_->rgb.size() * sizeof(float)) : 0;
-  return image_bytes + encoded_bytes_ + 2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
+  const auto picture_bytes =
+      picture_.image ? static_cast<int64_t>(picture_.image->rgb.size() + picture_.error_bounds->size()) * 4 : 0;
+  return picture_bytes + encoded_bytes_ + 2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
 }
 
 void RenderWork::watch(std::function<void()> fn) {
@@ -155,11 +162,11 @@ std::shared_ptr<Render> RenderWork::render() const {
 void RenderWork::take_result() {
   const auto render = this->render();
   if (!render) return;
-  auto image = render->image();
+  auto picture = picture_of(*render);
   auto progress = render->progress();
   auto report = render->report();
   const std::lock_guard lock(mutex_);
-  image_ = std::move(image);
+  picture_ = std::move(picture);
   status_.timings.render_ms = progress.elapsed_ms;
   status_.progress = std::move(progress);
   status_.report = std::move(report);
@@ -173,7 +180,7 @@ void RenderWork::set_ended(JobState state, std::string error, int64_t finished_m
     status_.error = std::move(error);
     status_.finished_ms = finished_ms;
     status_.progress.eta_ms = state == JobState::done ? 0.0 : -1.0;
-    if (state != JobState::done) image_ = nullptr;
+    if (state != JobState::done) picture_ = {};
   }
   bump();
   notify_watchers();

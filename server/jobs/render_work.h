@@ -34,8 +34,13 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   // True if the render has ended.
   bool wait_end(std::stop_token gone, Steady::time_point until) const;
 
-  // The linear image of the whole passes so far. Null before the first pass and after drop_image().
-  std::shared_ptr<const Image> image() const;
+  // The linear image of the whole passes so far and the bound of the error by pixel. Null before the first pass and
+  // after drop_image().
+  struct Picture {
+    std::shared_ptr<const Image> image;
+    std::shared_ptr<const std::vector<float>> error_bounds;
+  };
+  Picture picture() const;
 
   // The image of an ended render in a format, encoded once on the pool. REQUIRES: not a pool thread.
   // Errors: expired (the linear image was dropped), or the encoder's.
@@ -81,7 +86,7 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   mutable std::condition_variable_any changed_;
   WorkStatus status_;  // progress and report are filled in from render_ while there is one
   std::shared_ptr<Render> render_;
-  std::shared_ptr<const Image> image_;  // after the end
+  Picture picture_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;
   int64_t encoded_bytes_ = 0;
   std::vector<std::function<void()>> watchers_;

@@ -58,12 +58,15 @@ void Session::note_pass(int64_t view_seq) {
   const bool is_final = progress.state == RenderState::done;
   if (progress.spp == 0 || progress.state == RenderState::cancelled) return;
   auto image = render->image();
-  auto stop = is_final ? render->report().stop : "";
+  auto error_bounds = render->error_bounds();
+  auto report = render->report();
   const std::lock_guard lock(mutex_);
   if (view_seq != view_seq_ || !image) return;
   const bool is_known = frame_.seq > 0 && frame_.view_seq == view_seq && frame_.progress.spp >= progress.spp;
   if (is_known && (frame_.is_final || !is_final)) return;
-  frame_ = {frame_.seq + 1, view_seq, is_final, exposure_, std::move(progress), std::move(stop), std::move(image), ""};
+  frame_ = {
+      frame_.seq + 1,          view_seq, is_final, exposure_, std::move(progress), std::move(report), std::move(image),
+      std::move(error_bounds), ""};
   changed_.notify_all();
 }
 
@@ -71,7 +74,7 @@ void Session::note_failure(int64_t view_seq, std::string error) {
   const std::lock_guard lock(mutex_);
   const bool is_known = frame_.seq > 0 && frame_.view_seq == view_seq && !frame_.image;
   if (view_seq != view_seq_ || is_known) return;
-  frame_ = {frame_.seq + 1, view_seq, true, exposure_, {}, "", nullptr, std::move(error)};
+  frame_ = {frame_.seq + 1, view_seq, true, exposure_, {}, {}, nullptr, nullptr, std::move(error)};
   changed_.notify_all();
 }
 

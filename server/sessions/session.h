@@ -22,9 +22,10 @@ struct Frame {
   bool is_final = false;  // the view's stop rules hold
   double exposure = 0.0;
   RenderProgress progress;
-  std::string stop;                    // of the final frame
-  std::shared_ptr<const Image> image;  // null where the view's render failed
-  std::string error;                   // then: why, for the log
+  RenderReport report;                                     // so far
+  std::shared_ptr<const Image> image;                      // null where the view's render failed
+  std::shared_ptr<const std::vector<float>> error_bounds;  // by pixel
+  std::string error;                                       // of a render that failed: why, for the log
 };
 
 class Session : public std::enable_shared_from_this<Session> {

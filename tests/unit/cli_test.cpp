@@ -187,7 +187,7 @@ TEST_F(Command, RefusesMissingFilesWithOne) {
 
 TEST_F(Command, WritesTheReport) {
   ASSERT_EQ(run({"render", "scene.json", "-o", "a.png", "--samples", "4", "--report", "r.json"}).code, 0);
-  EXPECT_NE(read("r.json").find("\"passes\":[1,1,2]"), std::string::npos) << read("r.json");
+  EXPECT_NE(read("r.json").find("\"passes\":[1.0,1.0,2.0]"), std::string::npos) << read("r.json");
 }
 
 TEST_F(Command, ExplainsOnePixelInsteadOfRendering) {
