@@ -15,6 +15,8 @@ constexpr double kEdgeDecay = 0.35355339059327373;
 constexpr double kNormal95 = 1.96;
 constexpr float kConverged = static_cast<float>(2.0 / 255.0 / kNormal95);
 
+constexpr float kIndependent = 3.0f;  // variance of independent samples over that of an edge, about
+
 // Calibration, published in README.md.
 constexpr double kCalibration = 1.05;  // of the picture's rmse
 constexpr double kSystematic = 0.05;   // relative standard deviation of rmse over scenes, after it
@@ -68,6 +70,11 @@ std::array<double, 3> to_whole(double decay, uint32_t samples) {
   return out;
 }
 
+struct Weights {
+  uint32_t samples;
+  std::array<double, 3> edge, decayed;
+};
+
 }  // namespace
 
 ErrorMap::ErrorMap(int width, int height, double exposure_stops)
@@ -85,39 +92,46 @@ float ErrorMap::displayed(float linear) const {
   return curve(linear * exposure_);
 }
 
-// Squared half differences, displayed: their sum at each level.
-ErrorMap::Levels ErrorMap::measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean) const {
+// Squared half differences, displayed: their sum at each level. weights: to_whole() of an edge.
+ErrorMap::Levels ErrorMap::measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean,
+                                           const std::array<float, kLevels>& weights) const {
   const Pairs pairs(samples);
   Levels out{};
-  float spread = 0.0f;
-  for (int level = 0; level < kLevels; ++level) {
-    const float block_samples = static_cast<float>(pairs.length << level);
+  float variance = 0.0f;  // of the mean, linear
+  for (size_t level = 0; level < kLevels; ++level) {
+    const float half_block = 0.5f / static_cast<float>(pairs.length << level);
     for (uint32_t i = 0; i < kSampleBlocks >> (level + 1); ++i) {
-      if (i < pairs.at(level)) {
-        const float half = 0.5f * (sums[2 * i] - sums[2 * i + 1]) / block_samples;
-        out[static_cast<size_t>(level)] += half * half;
-        spread = std::max(spread, std::abs(half));
+      if (i < pairs.at(static_cast<int>(level))) {
+        const float half = half_block * (sums[2 * i] - sums[2 * i + 1]);
+        out[level] += half * half;
       }
       sums[i] = sums[2 * i] + sums[2 * i + 1];
     }
+    variance += weights[level] * out[level];
   }
-  if (spread == 0.0f) return out;
-  // From linear to displayed by the curve's rise around the mean.
-  const float reach = std::max(spread, 0x1p-12f / exposure_);
-  const float slope = (displayed(mean + reach) - displayed(mean - reach)) / (2.0f * reach);
+  if (!(variance > 0.0f)) return {};
+  // From linear to displayed by how far the curve goes over the mean's uncertainty, if samples were independent: near
+  // black it goes down much farther than up.
+  const float deviation = std::sqrt(kIndependent * variance / static_cast<float>(pairs.total()));
+  const float reach = std::max(deviation, 0x1p-12f / exposure_);
+  const float middle = displayed(mean), down = middle - displayed(mean - reach), up = displayed(mean + reach) - middle;
+  const float slope = std::max(down, up) / reach;
   for (float& level : out) level *= slope * slope;
   return out;
 }
 
 void ErrorMap::measure(const Film& film, const Image& image, const TileRect& part) {
   const SamplePlanes planes = film.planes();
-  std::array<double, kLevels> weights{};
+  std::array<float, kLevels> weights{};
   uint32_t weights_of = 0;
   for_each_cell(part, [&](const TileRect& cell) {
     const size_t at = film.cell_at(cell.x0, cell.y0);
     const uint32_t samples = film.samples()[at];
     if (samples == 0) return;
-    if (samples != weights_of) weights = to_whole(kEdgeDecay, weights_of = samples);
+    if (samples != weights_of) {
+      const auto exact = to_whole(kEdgeDecay, weights_of = samples);
+      std::transform(exact.begin(), exact.end(), weights.begin(), [](double w) { return static_cast<float>(w); });
+    }
     const Pairs pairs(samples);
     const uint32_t blocks = (samples - 1) / pairs.length + 1;
     std::array<double, kLevels> sums{};
@@ -127,7 +141,7 @@ void ErrorMap::measure(const Film& film, const Image& image, const TileRect& par
       for (size_t i = pixel * 3; i < pixel * 3 + 3; ++i) {
         std::array<float, kSampleBlocks> block_sums{};
         for (uint32_t block = 0; block < blocks; ++block) block_sums[block] = planes[block][i];
-        const Levels levels = measure_channel(block_sums, samples, image.rgb[i]);
+        const Levels levels = measure_channel(block_sums, samples, image.rgb[i], weights);
         shown_[i] = static_cast<uint8_t>(255.0f * displayed(image.rgb[i]) + 0.5f);
         for (size_t level = 0; level < kLevels; ++level) {
           sums[level] += levels[level];
@@ -141,15 +155,16 @@ void ErrorMap::measure(const Film& film, const Image& image, const TileRect& par
 }
 
 void ErrorMap::pool(const Film& film) {
+  const std::vector<uint32_t>& samples = film.samples();
   // Of each level that has one above: the mean squared difference there, and on the level above.
   double shorter = 0.0, longer = 0.0;
   is_known_ = true;
   for (size_t i = 0; i < levels_.size(); ++i) {
-    if (film.samples()[i] < 2) {
+    if (samples[i] < 2) {
       is_known_ = false;
       continue;
     }
-    const Pairs pairs(film.samples()[i]);
+    const Pairs pairs(samples[i]);
     for (int level = 0; level + 1 < kLevels && pairs.at(level + 1) > 0; ++level) {
       shorter += static_cast<double>(levels_[i][static_cast<size_t>(level)]) / pairs.at(level);
       longer += static_cast<double>(levels_[i][static_cast<size_t>(level) + 1]) / pairs.at(level + 1);
@@ -158,23 +173,48 @@ void ErrorMap::pool(const Film& film) {
   // Between what is smooth and what is random.
   const double decay = shorter > 0.0 ? std::clamp(longer / shorter, 0.0625, 0.5) : kEdgeDecay;
   double as_edge = 0.0, as_decayed = 0.0;
-  uint32_t weights_of = 0;
-  std::array<double, kLevels> edge{}, decayed{};
+  std::vector<float> decayed(levels_.size());  // by cell: the sum of the variances
+  Weights weights{0, {}, {}};
   for (size_t i = 0; i < levels_.size(); ++i) {
-    const uint32_t samples = film.samples()[i];
-    if (samples < 2) continue;
-    if (samples != weights_of) {
-      edge = to_whole(kEdgeDecay, samples);
-      decayed = to_whole(decay, samples);
-      weights_of = samples;
-    }
-    const double pairs = Pairs(samples).total();
+    if (samples[i] < 2) continue;
+    if (samples[i] != weights.samples)
+      weights = {samples[i], to_whole(kEdgeDecay, samples[i]), to_whole(decay, samples[i])};
+    const double pairs = 3.0 * Pairs(samples[i]).total();
+    double sum = 0.0;
     for (size_t level = 0; level < kLevels; ++level) {
-      as_edge += levels_[i][level] * edge[level] / pairs;
-      as_decayed += levels_[i][level] * decayed[level] / pairs;
+      as_edge += levels_[i][level] * weights.edge[level] / pairs;
+      sum += levels_[i][level] * weights.decayed[level] / pairs;
     }
+    as_decayed += sum;
+    decayed[i] = static_cast<float>(sum);
   }
   scale_ = as_edge > 0.0 ? static_cast<float>(kCalibration * kCalibration * as_decayed / as_edge) : 1.0f;
+  look_back(film, decay, std::move(decayed));
+}
+
+// While all pixels had as many samples, the error of the picture was told without prejudice. Then samples went where
+// it had shown. If there it proves much smaller than it had seemed, it was a chance that had shown a little of what
+// is everywhere (as a wire shows in one pixel of a hundred), and most of it is where it has not shown yet.
+void ErrorMap::look_back(const Film& film, double decay, std::vector<float> decayed) {
+  const std::vector<uint32_t>& samples = film.samples();
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  unseen_ = 0.0;
+  if (*least == *most) {
+    first_samples_ = *least;
+    first_variances_ = std::move(decayed);
+    return;
+  }
+  double seemed = 0.0, proved = 0.0, open = 0.0;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    open += static_cast<double>(first_samples_) / samples[i];
+    if (samples[i] <= first_samples_) continue;
+    const double octaves = elementary::log2(static_cast<double>(samples[i]) / first_samples_);
+    seemed += first_variances_[i];
+    proved += decayed[i] * elementary::exp2(-elementary::log2(decay) * octaves);
+  }
+  constexpr double kMuch = 2.0;  // less may be chance, or another decay
+  if (seemed > kMuch * proved)
+    unseen_ = kCalibration * kCalibration * (seemed - proved) * open / static_cast<double>(samples.size());
 }
 
 // The mean square difference to the neighbours, displayed.
@@ -211,7 +251,7 @@ void ErrorMap::spread(const Film& film, const TileRect& part) {
       variances_[pixel] = seen + unseen * unseen * contrast(x, y);
       sum += variances_[pixel];
     });
-    cell_variances_[at] = sum;
+    cell_variances_[at] = sum + static_cast<float>(unseen_ / static_cast<double>(levels_.size()));
   });
 }
 
@@ -219,7 +259,7 @@ ErrorSummary ErrorMap::summary() const {
   ErrorSummary out;
   out.is_known = is_known_;
   if (!is_known_) return out;
-  double sum = 0.0, squares = 0.0;
+  double sum = unseen_, squares = 0.0;
   float most = 0.0f;
   std::array<uint32_t, 1 << 13> counts{};  // by the upper bits of the variance: steps of 1/16 octave
   constexpr int kShift = 32 - 13;

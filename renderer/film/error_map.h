@@ -49,7 +49,9 @@ class ErrorMap {
   using Levels = std::array<float, kLevels>;
 
   float displayed(float linear) const;
-  Levels measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean) const;
+  Levels measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean,
+                         const std::array<float, kLevels>& weights) const;
+  void look_back(const Film& film, double decay, std::vector<float> decayed);
   float contrast(int x, int y) const;
 
   int width_, height_;
@@ -60,6 +62,10 @@ class ErrorMap {
   std::vector<uint8_t> shown_;  // by pixel and channel: as displayed, rounded
   std::vector<Levels> levels_;  // by cell: by how much its blocks differ
   std::vector<float> variances_;
+  // When all pixels had as many samples for the last time: how many, and the variances of the cells.
+  uint32_t first_samples_ = 0;
+  std::vector<float> first_variances_;
+  double unseen_ = 0.0;  // variance of the picture, times its pixels, that no pixel has shown
   std::vector<float> cell_variances_;
 };
 

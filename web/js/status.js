@@ -6,11 +6,11 @@ import { byId } from './dom.js';
 const kHintMs = 9000;
 
 export class Status {
-  #total = null;  // samples a pixel that the scene asks for; null when it asks for time instead
+  #total = null;  // samples a pixel that the scene asks for; null when it asks for time or an error instead
   #since = performance.now();
 
   expect(render = {}) {
-    this.#total = render.samples ?? (render.time_ms ? null : 16);
+    this.#total = render.samples ?? (render.time_ms || render.rmse ? null : 16);
     this.#since = performance.now();
   }
 

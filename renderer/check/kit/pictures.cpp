@@ -17,7 +17,8 @@ ParsedScene scene_of(std::string_view json) {
     const SceneError& error = parsed.error().errors.front();
     throw std::logic_error("a scene of the catalogue is wrong: " + error.pointer + ": " + error.detail);
   }
-  if (parsed->view.render.samples_implied) parsed->view.render.samples = 1;
+  RenderSpec& render = parsed->view.render;
+  if (render.samples_implied && !render.rmse && !render.time_ms && render.passes.empty()) render.samples = 1;
   return *std::move(parsed);
 }
 
@@ -42,13 +43,9 @@ Picture picture_of(const ParsedScene& parsed, TilePool& pool, int tile_px) {
   if (render->progress().state != RenderState::done) throw std::logic_error("a render of the catalogue failed");
 
   const auto image = render->image();
-  Picture picture{image->width,
-                  image->height,
-                  to_srgb8(*image, parsed.view.image.exposure),
-                  image->rgb,
-                  primary_ids(*compiled, plan),
-                  parsed.warnings,
-                  render->report()};
+  Picture picture{image->width,    image->height,           to_srgb8(*image, parsed.view.image.exposure),
+                  image->rgb,      *render->error_bounds(), primary_ids(*compiled, plan),
+                  parsed.warnings, render->report()};
   picture.warnings.insert(picture.warnings.end(), plan.plan.warnings.begin(), plan.plan.warnings.end());
   return picture;
 }

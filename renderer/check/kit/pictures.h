@@ -29,6 +29,7 @@ struct Picture {
   int width = 0, height = 0;           // pixels
   std::vector<uint8_t> rgb;            // sRGB, 3 bytes a pixel
   std::vector<float> linear;           // 3 a pixel
+  std::vector<float> error_bounds;     // by pixel
   std::vector<uint64_t> ids;           // first surfaces, see surface_id
   std::vector<SceneWarning> warnings;  // of parsing and of compiling
   RenderReport report;
