@@ -36,7 +36,8 @@ CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
   CLI::Option* output = app.add_option("-o,--output", arguments.output, "The image: .png, .jpg or .exr (linear, half)");
   add_view_options(app, arguments.view);
   app.add_option("--threads", arguments.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
-  app.add_option("--tile", arguments.tile_px, "Edge of a tile, in pixels; the image is the same")
+  app.add_option("--tile", arguments.tile_px,
+                 "Edge of a tile, in pixels, rounded up to a multiple of 4; the image is the same")
       ->check(CLI::Range(1, 65536));
   add_isa_option(app, arguments.isa);
   app.add_option("--report", arguments.report, "Also write the report, JSON: error and time by pass; - prints it");

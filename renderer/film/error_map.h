@@ -22,8 +22,8 @@ struct ErrorSummary {
   int64_t unconverged = 0;       // pixels whose bound is over two steps of 8 bits
 };
 
-// After each pass: measure() every part of the image, pool() once, spread() every part. Many threads may do parts that
-// share no cell; no answer depends on parts or threads.
+// After each pass: measure() every part of the image, pool() once, spread() every part. Parts are of whole cells; many
+// threads may do different ones, and no answer depends on parts or threads.
 class ErrorMap {
  public:
   static constexpr int64_t kPixelBytes = 3 * sizeof(float) + 3;  // about, with bounds()

@@ -27,6 +27,8 @@ constexpr int64_t kColorBytes = 3 * sizeof(float);
 constexpr int kTilePx = 32;            // 12 KiB of float RGB stays in L1; an item of one sample takes one to five ms
 constexpr double kItemTargetMs = 5.0;  // longest wait of a more urgent render for a thread
 
+int in_whole_cells(int tile_px) { return (tile_px + kCellPx - 1) / kCellPx * kCellPx; }
+
 // The state machine behind Render. The pool calls take() and run(); the last item of a step opens the next step. A pass
 // is steps of tracing, then one that measures what the blocks of samples say, then one that spreads it over neighbours.
 // A step of tracing gives every tile as many samples as fit kItemTargetMs, so that items stay short.
@@ -37,7 +39,7 @@ class TileRender final : public Render, public WorkSource {
         scene_(std::move(scene)),
         plan_(std::move(plan)),
         options_(std::move(options)),
-        tile_px_(options_.tile_px > 0 ? options_.tile_px : kTilePx),
+        tile_px_(in_whole_cells(options_.tile_px > 0 ? options_.tile_px : kTilePx)),
         width_(plan_.view.image.width),
         height_(plan_.view.image.height),
         tiles_(tile_count(width_, height_, tile_px_)),

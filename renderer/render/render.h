@@ -61,7 +61,7 @@ struct RenderProgress {
 };
 
 struct RenderOptions {
-  int tile_px = 0;                // 0: chosen by measurement
+  int tile_px = 0;                // rounded up to whole cells of the film; 0: chosen by measurement
   std::function<void()> on_pass;  // after each whole pass and at the end, from a pool thread; must be quick
 };
 

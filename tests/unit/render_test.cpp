@@ -15,6 +15,7 @@
 #include "renderer/render/pass_schedule.h"
 #include "renderer/render/predict.h"
 #include "renderer/render/render.h"
+#include "renderer/render/spend.h"
 #include "renderer/scene/parse.h"
 #include "renderer/trace/isa.h"
 #include "tests/unit/host_floats.h"
@@ -117,6 +118,37 @@ TEST(Render, AnySplitOfTheSameSamplesGivesTheSameBytes) {
   const auto whole = render(2, 32, [](RenderSpec& spec) { spec.samples = 8; });
   EXPECT_EQ(render(2, 32, [](RenderSpec& spec) { spec.passes = {3, 5}; }), whole);
   EXPECT_EQ(render(2, 32, [](RenderSpec& spec) { spec.passes = {8}; }), whole);
+}
+
+// Where samples go is told by the samples before, so it must not depend on who took them either.
+TEST(Render, SamplesThatFollowTheErrorGiveTheSameBytesHoweverScheduled) {
+  const auto following = [](RenderSpec& spec) {
+    spec.samples = 24;
+    spec.adaptive = true;
+  };
+  const auto expected = render(1, 32, following);
+  EXPECT_NE(expected, render(1, 32, [](RenderSpec& spec) { spec.samples = 24; }));
+  for (const auto& [threads, tile_px] : {std::pair{2, 32}, {7, 8}, {2, 5}, {3, 1000}})
+    EXPECT_EQ(render(threads, tile_px, following), expected) << threads << " threads, tiles of " << tile_px;
+  for (const std::string& isa : available_isas()) {
+    ASSERT_TRUE(select_isa(isa).has_value());
+    EXPECT_EQ(render(2, 32, following), expected) << isa;
+  }
+  (void)select_isa("auto");
+}
+
+TEST(Spend, GivesToTheCellsInWhichASampleDoesMost) {
+  Film film(16, 4);  // four cells
+  film.samples() = {4, 4, 4, 8};
+  // By variance over samples: the third, the fourth, the first, the second.
+  const std::vector<float> variances = {2.0f, 1.0f, 9.0f, 10.0f};
+  constexpr double kOne = 16.0 / 64.0;  // a sample for each pixel of a cell, as a part of the image
+  EXPECT_EQ(spend(film, variances, 4 * kOne), (std::vector<uint32_t>{4, 4, 8, 8}));
+  EXPECT_EQ(spend(film, variances, 12 * kOne), (std::vector<uint32_t>{4, 4, 8, 16}));
+  EXPECT_EQ(spend(film, variances, 16 * kOne), (std::vector<uint32_t>{8, 4, 8, 16}));
+  EXPECT_EQ(spend(film, variances, 0.01), (std::vector<uint32_t>{4, 4, 8, 8})) << "one cell at least";
+  EXPECT_EQ(spend(film, {0.0f, 0.0f, 0.0f, 0.0f}, 4 * kOne), (std::vector<uint32_t>{8, 4, 4, 8}))
+      << "the first of equals";
 }
 
 TEST(Render, TheFullKernelGivesTheBytesOfTheLeanOne) {

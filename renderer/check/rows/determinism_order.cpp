@@ -52,13 +52,20 @@ ParsedScene reversed(ParsedScene parsed) {
 Outcome of_replays(const Context& context) {
   ParsedScene parsed = scene_of(kShowcase);
   parsed.view.render.samples = 8;
-  Bits first;
+  // Ended by its error, after samples that followed it.
+  View following = parsed.view;
+  following.render.samples = 4096;
+  following.render.rmse = 0.01;
+  following.render.adaptive = true;
+  Bits first, followed;
   {
     TilePool pool(7);
-    first = bits_of(compile_scene(parsed.scene, pool), parsed.view, pool);
+    const auto scene = compile_scene(parsed.scene, pool);
+    first = bits_of(scene, parsed.view, pool);
+    followed = bits_of(scene, following, pool);
   }
   const IsaChoice choice;
-  double replay_off = 0.0, split_off = 0.0;
+  double replay_off = 0.0, split_off = 0.0, followed_off = 0.0;
   for (const std::string& isa : available_isas()) {
     if (context.is_quick && isa != available_isas().back()) continue;
     (void)select_isa(isa);
@@ -67,11 +74,16 @@ Outcome of_replays(const Context& context) {
     replay.render.samples.reset();
     replay.render.passes = first.passes;
     note(replay_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool, 13).rgb));
+    replay.render.adaptive = true;
+    replay.render.passes = followed.passes;
+    note(followed_off, differing_bits(followed.rgb, bits_of(scene, replay, context.pool, 13).rgb));
+    replay.render.adaptive = false;
     replay.render.passes = {3, 5};
     note(split_off, differing_bits(first.rgb, bits_of(scene, replay, context.pool).rgb));
   }
   return {{at_least(2, "passes of the first render", static_cast<double>(first.passes.size())),
            at_most(0, "pixels that differ in the replay, %", replay_off),
+           at_most(0, "pixels that differ in the replay of one whose samples followed the error, %", followed_off),
            at_most(0, "pixels that differ in passes of 3 and 5, %", split_off)},
           {at_most(0, "means that differ, %", differing_bits(textbook_means({1, 1, 2, 4}), textbook_means({3, 5})))}};
 }
