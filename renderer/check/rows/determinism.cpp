@@ -64,7 +64,7 @@ Outcome of_threads_and_tiles(const Context& context) {
       if (first.rgb.empty()) first = whole;
       note(threads_off, differing_bits(first.rgb, whole.rgb));
       if (context.is_quick && threads != 7) continue;
-      for (const int tile_px : {1, 8, 13, 16, 64})
+      for (const int tile_px : {4, 8, 20, 64, 1000})
         note(tiles_off, differing_bits(first.rgb, bits_of(scene, parsed.view, pool, tile_px).rgb));
     }
   }
@@ -173,7 +173,7 @@ Outcome of_host_floats(const Context& context) {
 }
 
 constexpr Row kRows[] = {
-    {"D1", "threads and tiles", "1, 2, 7, 16 threads; tiles of 1, 8, 13, 16, 64 pixels",
+    {"D1", "threads and tiles", "1, 2, 7, 16 threads; tiles of 4, 8, 20, 64, 1000 pixels",
      "a random source of its own in every thread", of_threads_and_tiles},
     {"D2", "instruction sets", "all that the CPU can run, and a C library without AVX2 and FMA",
      "b^2 - ac contracted to a fused multiply-add", of_instruction_sets},
