@@ -2,7 +2,7 @@
 #include "renderer/film/error_map.h"
 
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 #include "renderer/base/elementary.h"
 #include "renderer/film/tone.h"
@@ -75,6 +75,50 @@ struct Weights {
   std::array<double, 3> edge, decayed;
 };
 
+// What measuring a cell needs to know of its number of samples.
+struct CellRule {
+  explicit CellRule(uint32_t samples_of_cell)
+      : samples(samples_of_cell), pairs(samples), blocks((samples - 1) / pairs.length + 1) {
+    const auto exact = to_whole(kEdgeDecay, samples);
+    for (size_t level = 0; level < weights.size(); ++level) {
+      weights[level] = static_cast<float>(exact[level]);
+      half_block[level] = 0.5f / static_cast<float>(pairs.length << level);
+    }
+    deviation2 = samples < 2 ? 0.0f : kIndependent / static_cast<float>(pairs.total());
+  }
+  uint32_t samples;
+  Pairs pairs;
+  uint32_t blocks;
+  std::array<float, 3> weights, half_block;
+  float deviation2;  // of the mean, if samples were independent: over what weights make of differences
+};
+
+// The channels of a cell's row; beyond the image's edge 0. Loops over all of it run in lanes.
+constexpr size_t kRow = 3 * kCellPx;
+using Row = std::array<float, kRow>;
+
+// By level, the sum of the squared half differences of the row's blocks, linear; and what variance of the mean they
+// make if an edge crosses.
+std::array<Row, 3> differences(const SamplePlanes& planes, size_t first, size_t count, const CellRule& rule,
+                               Row& variance) {
+  std::array<Row, kSampleBlocks> sums{};
+  for (uint32_t block = 0; block < rule.blocks; ++block) std::copy_n(planes[block] + first, count, sums[block].begin());
+  std::array<Row, 3> out{};
+  variance = {};
+  for (size_t level = 0; level < out.size(); ++level) {
+    for (uint32_t pair = 0; pair < rule.pairs.at(static_cast<int>(level)); ++pair) {
+      for (size_t i = 0; i < kRow; ++i) {
+        const float half = rule.half_block[level] * (sums[2 * pair][i] - sums[2 * pair + 1][i]);
+        out[level][i] += half * half;
+      }
+    }
+    for (uint32_t pair = 0; pair < kSampleBlocks >> (level + 1); ++pair)
+      for (size_t i = 0; i < kRow; ++i) sums[pair][i] = sums[2 * pair][i] + sums[2 * pair + 1][i];
+    for (size_t i = 0; i < kRow; ++i) variance[i] += rule.weights[level] * out[level][i];
+  }
+  return out;
+}
+
 }  // namespace
 
 ErrorMap::ErrorMap(int width, int height, double exposure_stops)
@@ -87,69 +131,39 @@ ErrorMap::ErrorMap(int width, int height, double exposure_stops)
       variances_(own_.size()),
       cell_variances_(levels_.size()) {}
 
-float ErrorMap::displayed(float linear) const {
-  static const Curve curve;
-  return curve(linear * exposure_);
-}
-
-// Squared half differences, displayed: their sum at each level. weights: to_whole() of an edge.
-ErrorMap::Levels ErrorMap::measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean,
-                                           const std::array<float, kLevels>& weights) const {
-  const Pairs pairs(samples);
-  Levels out{};
-  float variance = 0.0f;  // of the mean, linear
-  for (size_t level = 0; level < kLevels; ++level) {
-    const float half_block = 0.5f / static_cast<float>(pairs.length << level);
-    for (uint32_t i = 0; i < kSampleBlocks >> (level + 1); ++i) {
-      if (i < pairs.at(static_cast<int>(level))) {
-        const float half = half_block * (sums[2 * i] - sums[2 * i + 1]);
-        out[level] += half * half;
-      }
-      sums[i] = sums[2 * i] + sums[2 * i + 1];
-    }
-    variance += weights[level] * out[level];
-  }
-  if (!(variance > 0.0f)) return {};
-  // From linear to displayed by how far the curve goes over the mean's uncertainty, if samples were independent: near
-  // black it goes down much farther than up.
-  const float deviation = std::sqrt(kIndependent * variance / static_cast<float>(pairs.total()));
-  const float reach = std::max(deviation, 0x1p-12f / exposure_);
-  const float middle = displayed(mean), down = middle - displayed(mean - reach), up = displayed(mean + reach) - middle;
-  const float slope = std::max(down, up) / reach;
-  for (float& level : out) level *= slope * slope;
-  return out;
-}
-
 void ErrorMap::measure(const Film& film, const Image& image, const TileRect& part) {
+  static const Curve curve;
   const SamplePlanes planes = film.planes();
-  std::array<float, kLevels> weights{};
-  uint32_t weights_of = 0;
+  std::optional<CellRule> rule;
   for_each_cell(part, [&](const TileRect& cell) {
     const size_t at = film.cell_at(cell.x0, cell.y0);
     const uint32_t samples = film.samples()[at];
     if (samples == 0) return;
-    if (samples != weights_of) {
-      const auto exact = to_whole(kEdgeDecay, weights_of = samples);
-      std::transform(exact.begin(), exact.end(), weights.begin(), [](double w) { return static_cast<float>(w); });
-    }
-    const Pairs pairs(samples);
-    const uint32_t blocks = (samples - 1) / pairs.length + 1;
+    if (!rule || rule->samples != samples) rule.emplace(samples);
     std::array<double, kLevels> sums{};
-    for_each_pixel(cell, [&](int x, int y) {
-      const size_t pixel = static_cast<size_t>(y) * width_ + x;
-      double own = 0.0;
-      for (size_t i = pixel * 3; i < pixel * 3 + 3; ++i) {
-        std::array<float, kSampleBlocks> block_sums{};
-        for (uint32_t block = 0; block < blocks; ++block) block_sums[block] = planes[block][i];
-        const Levels levels = measure_channel(block_sums, samples, image.rgb[i], weights);
-        shown_[i] = static_cast<uint8_t>(255.0f * displayed(image.rgb[i]) + 0.5f);
-        for (size_t level = 0; level < kLevels; ++level) {
-          sums[level] += levels[level];
-          own += levels[level] * weights[level];
-        }
+    for (int y = cell.y0; y < cell.y1; ++y) {
+      const size_t first = (static_cast<size_t>(y) * width_ + cell.x0) * 3;
+      const size_t count = static_cast<size_t>(cell.x1 - cell.x0) * 3;
+      Row variance;
+      std::array<Row, kLevels> levels = differences(planes, first, count, *rule, variance);
+      Row own{};
+      for (size_t i = 0; i < count; ++i) {
+        const float mean = exposure_ * image.rgb[first + i], middle = curve(mean);
+        shown_[first + i] = static_cast<uint8_t>(255.0f * middle + 0.5f);
+        if (!(variance[i] > 0.0f)) continue;
+        // From linear to displayed by how far the curve goes over the mean's uncertainty, if samples were independent:
+        // near black it goes down much farther than up.
+        const float reach = std::max(exposure_ * std::sqrt(rule->deviation2 * variance[i]), 0x1p-12f);
+        const float slope = exposure_ * std::max(middle - curve(mean - reach), curve(mean + reach) - middle) / reach;
+        for (size_t level = 0; level < kLevels; ++level) sums[level] += slope * slope * levels[level][i];
+        own[i] = slope * slope * variance[i];
       }
-      own_[pixel] = samples < 2 ? 0.0f : static_cast<float>(own / (3.0 * pairs.total()));
-    });
+      for (int x = cell.x0; x < cell.x1; ++x) {
+        const float* pixel = &own[static_cast<size_t>(x - cell.x0) * 3];
+        own_[static_cast<size_t>(y) * width_ + x] =
+            samples < 2 ? 0.0f : (pixel[0] + pixel[1] + pixel[2]) / static_cast<float>(3 * rule->pairs.total());
+      }
+    }
     std::transform(sums.begin(), sums.end(), levels_[at].begin(), [](double sum) { return static_cast<float>(sum); });
   });
 }

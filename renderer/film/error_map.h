@@ -48,9 +48,6 @@ class ErrorMap {
   static constexpr int kLevels = 3;
   using Levels = std::array<float, kLevels>;
 
-  float displayed(float linear) const;
-  Levels measure_channel(std::array<float, kSampleBlocks> sums, uint32_t samples, float mean,
-                         const std::array<float, kLevels>& weights) const;
   void look_back(const Film& film, double decay, std::vector<float> decayed);
   float contrast(int x, int y) const;
 
