@@ -100,6 +100,43 @@ void add_plan(CLI::App& app, Run& run) {
   });
 }
 
+void add_report(CLI::App& app, Run& run) {
+  struct Options {
+    std::string scene, against;
+    ReportArguments report;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("report", "Measure error against run time: a study of a scene, to look at");
+  add_scene_option(*command, options->scene);
+  command->add_option("-o,--output", options->report.output, "The folder for report.html and the numbers behind it")
+      ->required();
+  command->add_option("--samples", options->report.most_samples, "Samples a pixel of the finest run")
+      ->capture_default_str()
+      ->check(CLI::IsMember({8, 16, 32, 64, 128, 256}));
+  command->add_option("--rounds", options->report.rounds, "Rounds of every run, each with a seed of its own")
+      ->capture_default_str()
+      ->check(CLI::Range(3, 100));
+  command->add_option("--width", options->report.view.width, "Pixels; without width and height about 32,000 in all");
+  command->add_option("--height", options->report.view.height, "Pixels");
+  command->add_option("--threads", options->report.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
+  command->add_option("--against", options->against, "Another program beside ours, where it is installed")
+      ->check(CLI::IsMember({"povray"}));
+  add_isa_option(*command, options->report.isa);
+  command->footer(
+      "Every method, with samples for all alike and where the error is, beside a reference of many more samples.\n"
+      "Takes some minutes; the machine should have nothing else to do.\n"
+      "Examples:\n  tilelight report scene.json -o report\n"
+      "  tilelight report scene.json -o report --against povray --samples 32");
+  command->callback([options, &run] {
+    run = [options] {
+      options->report.with_povray = options->against == "povray";
+      const auto source = read_scene(options->scene);
+      if (const ExitCode* code = std::get_if<ExitCode>(&source)) return *code;
+      return run_report(std::get<SceneText>(source), options->report);
+    };
+  });
+}
+
 void add_chess(CLI::App& app, Run& run) {
   struct Options {
     std::string fen;
@@ -171,6 +208,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
       "scene is wrong; 130 interrupted. `tilelight COMMAND --help` tells more of a command.");
   add_render(app, run);
   add_plan(app, run);
+  add_report(app, run);
   add_chess(app, run);
   add_check(app, run);
   add_schema(app, run);
@@ -178,7 +216,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
-      std::fprintf(stderr, "tilelight: no command is called '%s'; there are render, plan, chess, check and schema\n",
+      std::fprintf(stderr,
+                   "tilelight: no command is called '%s'; there are render, plan, report, chess, check and schema\n",
                    words[0].c_str());
       return kBadInput;
     }

@@ -31,6 +31,17 @@ struct PlanArguments {
 };
 ExitCode run_plan(const SceneText& source, const PlanArguments& arguments);
 
+struct ReportArguments {
+  std::string output;  // a folder, made if it is not there
+  ViewOptions view;    // of it width and height; without them a smaller picture than the scene's
+  int most_samples = 64;
+  int rounds = 5;
+  bool with_povray = false;
+  int threads = 0;
+  std::string isa = "auto";
+};
+ExitCode run_report(const SceneText& source, const ReportArguments& arguments);
+
 struct CheckArguments {
   std::vector<std::string> only;  // ids of rows, or their letters; empty: all
   bool is_quick = false;

@@ -37,10 +37,10 @@ std::string progress_text(const RenderProgress& progress) {
 
 ProgressLine::ProgressLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
-void ProgressLine::show(const RenderProgress& progress) {
+void ProgressLine::show(const std::string& text) {
   if (!is_terminal_) return;
   // Back to the line's start, and away with what was longer (ECMA-48: erase in line).
-  std::fprintf(stderr, "\r%s\x1b[K", progress_text(progress).c_str());
+  std::fprintf(stderr, "\r%s\x1b[K", text.c_str());
   is_shown_ = true;
 }
 

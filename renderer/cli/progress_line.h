@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ProgressLine: one line on a terminal that tells how far a render is. Silent where standard error is no terminal.
+// ProgressLine: one line on a terminal that tells how far the work is. Silent where standard error is no terminal.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(const RenderProgress& progress);
+  void show(const std::string& text);
+  void show(const RenderProgress& progress) { show(progress_text(progress)); }
   void clear();
   bool is_terminal() const { return is_terminal_; }
 

@@ -185,14 +185,14 @@ void ErrorMap::pool(const Film& film) {
     }
   }
   // Between what is smooth and what is random.
-  const double decay = shorter > 0.0 ? std::clamp(longer / shorter, 0.0625, 0.5) : kEdgeDecay;
+  decay_ = shorter > 0.0 ? std::clamp(longer / shorter, 0.0625, 0.5) : kEdgeDecay;
   double as_edge = 0.0, as_decayed = 0.0;
-  std::vector<float> decayed(levels_.size());  // by cell: the sum of the variances
+  decayed_.assign(levels_.size(), 0.0f);
   Weights weights{0, {}, {}};
   for (size_t i = 0; i < levels_.size(); ++i) {
     if (samples[i] < 2) continue;
     if (samples[i] != weights.samples)
-      weights = {samples[i], to_whole(kEdgeDecay, samples[i]), to_whole(decay, samples[i])};
+      weights = {samples[i], to_whole(kEdgeDecay, samples[i]), to_whole(decay_, samples[i])};
     const double pairs = 3.0 * Pairs(samples[i]).total();
     double sum = 0.0;
     for (size_t level = 0; level < kLevels; ++level) {
@@ -200,22 +200,22 @@ void ErrorMap::pool(const Film& film) {
       sum += levels_[i][level] * weights.decayed[level] / pairs;
     }
     as_decayed += sum;
-    decayed[i] = static_cast<float>(sum);
+    decayed_[i] = static_cast<float>(sum);
   }
   scale_ = as_edge > 0.0 ? static_cast<float>(kCalibration * kCalibration * as_decayed / as_edge) : 1.0f;
-  look_back(film, decay, std::move(decayed));
+  look_back(film);
 }
 
 // While all pixels had as many samples, the error of the picture was told without prejudice. Then samples went where
 // it had shown. If there it proves much smaller than it had seemed, it was a chance that had shown a little of what
 // is everywhere (as a wire shows in one pixel of a hundred), and most of it is where it has not shown yet.
-void ErrorMap::look_back(const Film& film, double decay, std::vector<float> decayed) {
+void ErrorMap::look_back(const Film& film) {
   const std::vector<uint32_t>& samples = film.samples();
   const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
   unseen_ = 0.0;
   if (*least == *most) {
     first_samples_ = *least;
-    first_variances_ = std::move(decayed);
+    first_variances_ = decayed_;
     return;
   }
   double seemed = 0.0, proved = 0.0, open = 0.0;
@@ -224,11 +224,18 @@ void ErrorMap::look_back(const Film& film, double decay, std::vector<float> deca
     if (samples[i] <= first_samples_) continue;
     const double octaves = elementary::log2(static_cast<double>(samples[i]) / first_samples_);
     seemed += first_variances_[i];
-    proved += decayed[i] * elementary::exp2(-elementary::log2(decay) * octaves);
+    proved += decayed_[i] * elementary::exp2(-elementary::log2(decay_) * octaves);
   }
   constexpr double kMuch = 2.0;  // less may be chance, or another decay
   if (seemed > kMuch * proved)
     unseen_ = kCalibration * kCalibration * (seemed - proved) * open / static_cast<double>(samples.size());
+}
+
+std::vector<double> ErrorMap::own_cell_variances() const {
+  std::vector<double> out(decayed_.size());
+  std::transform(decayed_.begin(), decayed_.end(), out.begin(),
+                 [](float v) { return kCalibration * kCalibration * v; });
+  return out;
 }
 
 // The mean square difference to the neighbours, displayed.

@@ -38,6 +38,10 @@ class ErrorMap {
   void spread(const Film& film, const TileRect& part);
 
   ErrorSummary summary() const;
+  // After pool(): what a variance is multiplied by when its pixel's samples are doubled, and by cell the sum of its
+  // pixels' variances as their own samples tell them.
+  double decay() const { return decay_; }
+  std::vector<double> own_cell_variances() const;
   // By cell of the film: the sum of its pixels' variances.
   const std::vector<float>& cell_variances() const { return cell_variances_; }
   // By pixel: its error is below in 95 % of cases, or more.
@@ -48,17 +52,19 @@ class ErrorMap {
   static constexpr int kLevels = 3;
   using Levels = std::array<float, kLevels>;
 
-  void look_back(const Film& film, double decay, std::vector<float> decayed);
+  void look_back(const Film& film);
   float contrast(int x, int y) const;
 
   int width_, height_;
   float exposure_;  // a factor
   bool is_known_ = false;
+  double decay_ = 1.0;
   float scale_ = 1.0f;          // of own_, once the decay is known
   std::vector<float> own_;      // by pixel: variance if an edge crossed it, from its own samples
   std::vector<uint8_t> shown_;  // by pixel and channel: as displayed, rounded
   std::vector<Levels> levels_;  // by cell: by how much its blocks differ
   std::vector<float> variances_;
+  std::vector<float> decayed_;  // by cell: the sum of the variances, with the decay, before calibration
   // When all pixels had as many samples for the last time: how many, and the variances of the cells.
   uint32_t first_samples_ = 0;
   std::vector<float> first_variances_;

@@ -240,14 +240,14 @@ ReferencePixel reference_sample(const ReferenceScene& scene, const ReferenceEye&
 }
 
 std::vector<ReferencePixel> reference_image(const ReferenceScene& scene, const View& view, const Camera& camera,
-                                            TilePool& pool) {
+                                            TilePool& pool, uint32_t sample) {
   const ReferenceEye eye = make_reference_eye(scene, view, camera);
   const int width = view.image.width, height = view.image.height;
   std::vector<ReferencePixel> pixels(static_cast<size_t>(width) * height);
   pool.parallel_for(height, Priority::batch, [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      const SamplePoint s = through_filter(view.render.filter, sample_point(x, y, view.render.seed, 0));
+      const SamplePoint s = through_filter(view.render.filter, sample_point(x, y, view.render.seed, sample));
       pixels[static_cast<size_t>(y) * width + x] = reference_sample(scene, eye, Vec2(x + s.x, y + s.y));
     }
   });

@@ -57,8 +57,8 @@ struct ReferenceRay {
 ReferencePixel reference_sample(const ReferenceScene& scene, const ReferenceEye& eye, const Vec2& image_point,
                                 std::vector<ReferenceRay>* rays = nullptr);
 
-// width * height samples, row by row from the top: sample 0 of every pixel's sequence.
+// width * height samples, row by row from the top: the same one of every pixel's sequence.
 std::vector<ReferencePixel> reference_image(const ReferenceScene& scene, const View& view, const Camera& camera,
-                                            TilePool& pool);
+                                            TilePool& pool, uint32_t sample = 0);
 
 }  // namespace tilelight

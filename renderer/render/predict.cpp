@@ -6,109 +6,144 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/base/elementary.h"
 #include "renderer/base/standard_floats.h"
+#include "renderer/film/film.h"
 #include "renderer/render/pass_schedule.h"
-#include "renderer/trace/tile_job.h"
+#include "renderer/render/probe.h"
+#include "renderer/render/spend.h"
 
 namespace tilelight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// What the model of a picture leaves out, measured over the example scenes: relative standard deviations.
+constexpr double kPriceDeviation = 0.12;  // of the time of a ray
+constexpr double kModelDeviation = 0.10;  // of the error, beside the chance of which cells were probed
+constexpr double kNormal95 = 1.96;
+constexpr double kReporting = 1.03;  // time with the error told over time without
+constexpr double kToldHigh = 1.1;    // the upper end of what is told over the error, in large pictures
 
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect) {
-  TileCounts counts;
-  std::vector<CellWork> cells;
-  for_each_cell(rect, [&](const TileRect& cell) { cells.push_back({cell}); });
-  kernel_of(plan.variant)({.scene = &scene, .plan = &plan, .eye_media = &eye_media, .cells = cells, .counts = &counts});
-  return counts.primary + counts.shadow + counts.reflected + counts.refracted;
-}
-
-// The same picture in about a thousand pixels: each is a cell that stands for many, with one random point in it.
-ViewPlan in_cells(const ViewPlan& plan) {
-  constexpr int kCells = 1024;  // an error of 1/32 where the cost of a sample scatters as much as its mean
-  ViewPlan out = plan;
-  const ImageSpec& full = plan.view.image;
-  ImageSpec& cells = out.view.image;
-  const double shrink = std::min(1.0, std::sqrt(kCells / (static_cast<double>(full.width) * full.height)));
-  cells.width = std::clamp(static_cast<int>(std::lround(full.width * shrink)), 1, kCells);
-  cells.height = std::clamp(static_cast<int>(std::lround(full.height * shrink)), 1, kCells);
-  out.eye.step_x = plan.eye.step_x * (static_cast<double>(full.width) / cells.width);
-  out.eye.step_y = plan.eye.step_y * (static_cast<double>(full.height) / cells.height);
-  return out;
-}
-
-// A stride that visits all of `count` places and soon has been everywhere: near the golden ratio, coprime to count.
-int golden_stride(int count) {
-  int stride = std::max(1, static_cast<int>(std::lround(0.618 * count)));
-  while (std::gcd(stride, count) != 1) ++stride;
-  return stride;
-}
-
-struct Price {
-  double rays_per_sample = 0.0, ms_per_ray = 0.0;
+struct Outcome {
+  double spp = 0.0, elapsed_ms = 0.0, rmse = -1.0;
 };
 
-// One sample a cell, all over the image, until all are traced or the time is over.
-Price ask_cells(const CompiledScene& scene, const ViewPlan& plan) {
-  constexpr double kEnoughMs = 100.0;
-  constexpr int kAtLeast = 8;
-  const ViewPlan cells = in_cells(plan);
-  const EyeMedia eye_media(scene, cells);
-  const int width = cells.view.image.width, count = width * cells.view.image.height, stride = golden_stride(count);
-  const auto start = Clock::now();
-  int64_t rays = 0, place = 0;
-  int asked = 0;
-  for (; asked < count && (asked < kAtLeast || ms_since(start) < kEnoughMs);
-       ++asked, place = (place + stride) % count) {
-    const int x = static_cast<int>(place % width), y = static_cast<int>(place / width);
-    rays += trace(scene, cells, eye_media, {x, y, x + 1, y + 1});
-  }
-  return {static_cast<double>(rays) / asked, ms_since(start) / static_cast<double>(rays)};
-}
+// A picture that is made of the probed cells alone, as if each had its share of it.
+class Model {
+ public:
+  // price: ms a sample of a pixel, of the whole image. error_scale: of the errors.
+  Model(const Probe& probe, const RenderSpec& spec, double ms_a_sample, double error_scale)
+      : probe_(probe),
+        schedule_(spec),
+        time_ms_(spec.time_ms),
+        ms_a_sample_(ms_a_sample),
+        variance_scale_(error_scale * error_scale),
+        film_(std::max<int>(1, static_cast<int>(probe.variances.size())) * kCellPx, kCellPx) {}
 
-// Rays of neighbouring pixels go the same ways, so the price of a ray is asked of whole blocks of pixels, spread over
-// the image, and with warm caches: a render comes back to a tile sample after sample.
-double ask_blocks(const CompiledScene& scene, const ViewPlan& plan) {
-  constexpr int kColumns = 4, kRows = 3, kBlockPx = 16;
-  const ImageSpec& image = plan.view.image;
-  const EyeMedia eye_media(scene, plan);
-  double ms = 0.0;
-  int64_t rays = 0;
-  for (int i = 0; i < kColumns * kRows; ++i) {
-    const int x = image.width * (2 * (i % kColumns) + 1) / (2 * kColumns);
-    const int y = image.height * (2 * (i / kColumns) + 1) / (2 * kRows);
-    const TileRect block{x, y, std::min(x + kBlockPx, image.width), std::min(y + kBlockPx, image.height)};
-    trace(scene, plan, eye_media, block);
-    const auto start = Clock::now();
-    rays += trace(scene, plan, eye_media, block);
-    ms += ms_since(start);
+  Outcome run() {
+    Standing standing;
+    for (;;) {
+      const PassSchedule::Next next = schedule_.next(standing);
+      if (next.samples == 0.0) break;
+      const double ms = take(next);
+      if (time_ms_ && standing.passes > 0 && standing.elapsed_ms + ms > *time_ms_) {
+        standing.elapsed_ms = *time_ms_;  // a pass that runs over the limit does not count
+        break;
+      }
+      const double spp = mean_samples();
+      standing = {.passes = standing.passes + 1,
+                  .spp = spp,
+                  .elapsed_ms = standing.elapsed_ms + ms,
+                  .ms_per_sample = ms / std::max(1e-9, spp - standing.spp),
+                  .was_for_all = next.for_all,
+                  .rmse = spp >= 2.0 && knows_errors() ? kToldHigh * rmse() : standing.rmse};
+      rmse_ = knows_errors() ? rmse() : -1.0;
+    }
+    return {standing.spp, standing.elapsed_ms, rmse_};
   }
-  return ms / static_cast<double>(rays);
+
+ private:
+  bool knows_errors() const { return !probe_.variances.empty(); }
+
+  double variance(size_t cell) const {
+    const double octaves = elementary::log2(static_cast<double>(film_.samples()[cell]) / kProbeSamples);
+    return variance_scale_ * probe_.variances[cell] * elementary::exp2(octaves * elementary::log2(probe_.decay));
+  }
+
+  double rmse() const {
+    double sum = 0.0;
+    for (size_t i = 0; i < probe_.variances.size(); ++i) sum += variance(i);
+    return std::sqrt(sum / static_cast<double>(probe_.variances.size()));
+  }
+
+  double mean_samples() const {
+    return std::accumulate(film_.samples().begin(), film_.samples().end(), 0.0) /
+           static_cast<double>(film_.samples().size());
+  }
+
+  // The time that the pass takes, ms.
+  double take(const PassSchedule::Next& next) {
+    std::vector<uint32_t> targets = film_.samples();
+    if (next.for_all || !knows_errors()) {
+      for (uint32_t& samples : targets) samples += std::max(1u, static_cast<uint32_t>(next.samples));
+    } else {
+      std::vector<float> variances(targets.size());
+      for (size_t i = 0; i < variances.size(); ++i) variances[i] = static_cast<float>(variance(i));
+      targets = spend(film_, variances, next.samples);
+    }
+    double samples = 0.0;
+    for (size_t i = 0; i < targets.size(); ++i)
+      samples += (targets[i] - film_.samples()[i]) * (knows_errors() ? probe_.costs[i] : 1.0);
+    film_.samples() = std::move(targets);
+    return ms_a_sample_ * samples / static_cast<double>(film_.samples().size());
+  }
+
+  const Probe& probe_;
+  const PassSchedule schedule_;
+  const std::optional<double> time_ms_;
+  const double ms_a_sample_, variance_scale_;
+  Film film_;  // its counts of samples alone
+  double rmse_ = -1.0;
+};
+
+// Of the error, by the chance of which cells were probed: a few of them may hold most of it.
+double error_deviation(const Probe& probe) {
+  double sum = 0.0, squares = 0.0;
+  for (const double variance : probe.variances) sum += variance, squares += variance * variance;
+  const double chance = sum > 0.0 ? 0.25 * (1.0 - probe.image_part) * squares / (sum * sum) : 0.0;
+  return std::sqrt(kModelDeviation * kModelDeviation + chance);
 }
 
 }  // namespace
 
 CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
   const StandardFloats floats;
-  constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
-  Price price = ask_cells(scene, plan);
-  if (price.rays_per_sample < kManyRays) price.ms_per_ray = ask_blocks(scene, plan);
+  const auto start = std::chrono::steady_clock::now();
+  const Probe probe = probe_view(scene, plan);
+  const double pixels = plan.view.image.width * static_cast<double>(plan.view.image.height);
+  const double cpu_ms_a_sample = kReporting * pixels * probe.rays_per_sample * probe.ms_per_ray;
+  const double ms_a_sample = cpu_ms_a_sample / std::max(1, threads);
+  const RenderSpec& spec = plan.view.render;
 
-  const double rays_a_pass_sample =
-      price.rays_per_sample * plan.view.image.width * static_cast<double>(plan.view.image.height);
-  const double samples = PassSchedule(plan.view.render).expected_samples({});
-  const auto cost_of = [&](double samples_a_pixel) {
-    const double rays = rays_a_pass_sample * samples_a_pixel, cpu_ms = rays * price.ms_per_ray;
-    return CostPrediction{1e-6 * rays, cpu_ms, cpu_ms / std::max(1, threads)};
-  };
-  const CostPrediction whole = cost_of(samples), first = cost_of(1.0);
-  const auto& time_ms = plan.view.render.time_ms;
-  if (!time_ms || whole.elapsed_ms <= *time_ms) return whole;
-  return cost_of(std::max(1.0, *time_ms / first.elapsed_ms));  // the first pass is always finished
+  const Outcome middle = Model(probe, spec, ms_a_sample, 1.0).run();
+  CostPrediction out;
+  out.spp = middle.spp;
+  out.mrays = 1e-6 * pixels * probe.rays_per_sample * middle.spp;
+  out.elapsed_ms = out.elapsed_low_ms = out.elapsed_high_ms = middle.elapsed_ms;
+  out.cpu_ms = middle.elapsed_ms * std::max(1, threads);
+  out.rmse = out.rmse_low = out.rmse_high = middle.rmse;
+  const double price = kNormal95 * kPriceDeviation, error = kNormal95 * error_deviation(probe);
+  for (const double sign_of_price : {-1.0, 0.0, 1.0}) {
+    for (const double sign_of_error : {-1.0, 0.0, 1.0}) {
+      const double error_scale = elementary::exp(sign_of_error * error);
+      const Outcome o = Model(probe, spec, ms_a_sample * elementary::exp(sign_of_price * price), error_scale).run();
+      out.elapsed_low_ms = std::min(out.elapsed_low_ms, o.elapsed_ms);
+      out.elapsed_high_ms = std::max(out.elapsed_high_ms, o.elapsed_ms);
+      out.rmse_low = std::min(out.rmse_low, o.rmse);
+      out.rmse_high = std::max(out.rmse_high, o.rmse);
+    }
+  }
+  out.probe_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return out;
 }
 
 }  // namespace tilelight

@@ -6,7 +6,17 @@
 namespace tilelight {
 
 std::string cost_json(const CostPrediction& cost) {
-  return nlohmann::ordered_json{{"mrays", cost.mrays}, {"cpu_ms", cost.cpu_ms}, {"elapsed_ms", cost.elapsed_ms}}.dump();
+  using Json = nlohmann::ordered_json;
+  const bool is_known = cost.rmse >= 0.0;
+  return Json{{"spp", cost.spp},
+              {"mrays", cost.mrays},
+              {"cpu_ms", cost.cpu_ms},
+              {"elapsed_ms", cost.elapsed_ms},
+              {"elapsed_ci95_ms", {cost.elapsed_low_ms, cost.elapsed_high_ms}},
+              {"rmse", is_known ? Json(cost.rmse) : Json(nullptr)},
+              {"rmse_ci95", is_known ? Json{cost.rmse_low, cost.rmse_high} : Json(nullptr)},
+              {"probe_ms", cost.probe_ms}}
+      .dump();
 }
 
 }  // namespace tilelight

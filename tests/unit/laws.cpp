@@ -17,11 +17,11 @@ using Names = std::set<std::string>;
 using Order = std::map<std::string, Names>;
 
 // What stands directly to the left of a room; left of that is left too.
-const Order kRenderer = {{"base", {}},           {"scene", {"base"}},           {"schedule", {"base"}},
-                         {"film", {"base"}},     {"geometry", {"scene"}},       {"compile", {"geometry", "schedule"}},
-                         {"shade", {"compile"}}, {"trace", {"shade", "film"}},  {"raster", {"trace"}},
-                         {"render", {"raster"}}, {"measure", {"render"}},       {"renderer", {"measure"}},
-                         {"check", {"measure"}}, {"cli", {"check", "renderer"}}};
+const Order kRenderer = {{"base", {}},           {"scene", {"base"}},          {"schedule", {"base"}},
+                         {"film", {"base"}},     {"geometry", {"scene"}},      {"compile", {"geometry", "schedule"}},
+                         {"shade", {"compile"}}, {"trace", {"shade", "film"}}, {"raster", {"trace"}},
+                         {"render", {"raster"}}, {"measure", {"render"}},      {"renderer", {"measure"}},
+                         {"study", {"measure"}}, {"check", {"measure"}},       {"cli", {"check", "renderer", "study"}}};
 const Order kServer = {{"clock", {}},
                        {"process", {}},
                        {"random_id", {}},

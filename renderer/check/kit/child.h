@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/base/child_process.h"
+
 namespace tilelight::check {
 
 // A process that starts with it has a C library that does without AVX2 and FMA, whose last bits are others.
@@ -14,15 +16,6 @@ struct Variable {
 };
 inline constexpr Variable kPlainLibrary{"GLIBC_TUNABLES",
                                         "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F,-AVX2_Usable,-FMA_Usable"};
-
-struct ChildResult {
-  int status = 0;  // the exit code, or 128 + the signal that ended it
-  std::string output;
-};
-// Runs the program with `input` on its standard input, in this process's environment and `environment` ("NAME=value").
-// Throws std::system_error if it cannot be started.
-ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, std::string_view input,
-                      const std::vector<std::string>& environment);
 
 // The bytes of the half-float image that the tilelight command renders of the scene in a process of its own; empty if
 // it fails.

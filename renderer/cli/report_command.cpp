@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+
+#include "renderer/cli/commands.h"
+#include "renderer/cli/files.h"
+#include "renderer/cli/interrupt.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/renderer.h"
+#include "renderer/study/study.h"
+#include "renderer/trace/isa.h"
+
+namespace tilelight::cli {
+namespace {
+
+ExitCode complain(ExitCode code, const std::string& what) {
+  std::fprintf(stderr, "tilelight: %s\n", what.c_str());
+  return code;
+}
+
+// The files of the study, each whole or not at all.
+ExitCode write_files(const Study& study, const std::filesystem::path& folder) {
+  const DisplayedImage shown = displayed_image(*study.picture, study.exposure);
+  const std::vector<float> off = error_by_pixel(shown, displayed_image(*study.reference, study.exposure));
+  const auto png = [&](const Image& image, double exposure) { return encode_image(image, exposure, ImageFormat::png); };
+  const std::pair<const char*, Result<std::string>> files[] = {
+      {"study.json", study_json(study)},
+      {"runs.csv", study_csv(study)},
+      {"error_time.svg", study_svg(study)},
+      {"reference.png", png(*study.reference, study.exposure)},
+      {"picture.png", png(*study.picture, study.exposure)},
+      {"error.png", png(heat_map(study.width, study.height, off), 0.0)},
+      {"told.png", png(heat_map(study.width, study.height, study.told_bounds), 0.0)},
+      {"report.html", study_html(study)}};
+  for (const auto& [name, bytes] : files) {
+    if (!bytes) return complain(kFailed, bytes.error().detail);
+    if (auto written = write_output((folder / name).string(), *bytes); !written)
+      return complain(kFailed, written.error().detail);
+  }
+  return kOk;
+}
+
+void print_summary(const Study& study, const std::string& folder) {
+  std::printf("%-34s %-28s %9s %9s %9s %9s %7s\n", "series", "setting", "spp", "ms", "rmse", "told", "FLIP");
+  for (const StudySeries& series : study.series) {
+    for (const StudyRun& run : series.runs) {
+      char told[16] = "";
+      if (run.told_rmse >= 0.0) std::snprintf(told, sizeof told, "%.5f", run.told_rmse);
+      std::printf("%-34s %-28s %9.4g %9.1f %9.5f %9s %7.4f%s\n", series.name.c_str(), run.setting.c_str(), run.spp,
+                  run.time_ms, run.error.rmse, told, run.error.flip, run.is_on_front ? "  *" : "");
+    }
+  }
+  std::printf("* on the front: no run has less error in less time\n%s/report.html\n", folder.c_str());
+}
+
+}  // namespace
+
+ExitCode run_report(const SceneText& source, const ReportArguments& arguments) {
+  if (auto isa = select_isa(arguments.isa); !isa) return complain(kBadInput, isa.error().detail);
+  auto parsed = parse_with_options(source, arguments.view);
+  if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
+  ParsedScene& document = std::get<ParsedScene>(parsed);
+  if (!arguments.view.width && !arguments.view.height) document.view.image = study_size(document.view.image);
+
+  std::error_code error;
+  std::filesystem::create_directories(arguments.output, error);
+  if (error) return complain(kFailed, arguments.output + ": " + error.message());
+  const std::string first = (std::filesystem::path(arguments.output) / "report.html").string();
+  if (auto writable = check_can_write(first); !writable) return complain(kFailed, writable.error().detail);
+
+  TilePool pool(arguments.threads);
+  ProgressLine line;
+  StudyOptions options{
+      .most_samples = arguments.most_samples, .rounds = arguments.rounds, .with_povray = arguments.with_povray};
+  options.is_cancelled = is_interrupted;
+  options.on_progress = [&](const std::string& what, double done) {
+    line.show(std::to_string(static_cast<int>(100.0 * done)) + " %   " + what);
+  };
+  const auto study = make_study(document, source.name, pool, options);
+  line.clear();
+  if (!study) return complain(kInterrupted, "interrupted; nothing was written");
+  const ExitCode code = write_files(*study, arguments.output);
+  if (code == kOk) print_summary(*study, arguments.output);
+  return code;
+}
+
+}  // namespace tilelight::cli
