@@ -59,6 +59,7 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   rebase_and_normalise(bodies, *out);
   rebase_lights(*out);
   for (uint32_t i = 0; i < out->bodies.size(); ++i) out->media += is_medium(*out, i);
+  out->passed_on = find_passed_on(*out);
   out->radiance_bound = find_radiance_bound(*out);
   out->plan.features = find_features(*out, left_out);
   build_trees(pool, *out);

@@ -76,6 +76,7 @@ struct CompiledScene {
   double units = 1.0;         // user's units a normalised unit; a power of two
   Vec3 bounding_center{0.0};  // of a sphere about the finite bodies, user's units
   double bounding_radius = 1.0;
+  double passed_on = 0.0;        // no surface mirrors and lets through more than this part of the light, in sum
   double radiance_bound = -1.0;  // no ray brings more than this in any channel; negative: no finite bound is known
   Plan plan;
 };

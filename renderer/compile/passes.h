@@ -32,8 +32,11 @@ std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const
 // The scene's tree over the finite bodies, and the trees of meshes that keep one of their own.
 void build_trees(TilePool& pool, CompiledScene& out);
 
+// The largest part of the light that reaches a surface which it mirrors or lets through, every channel.
+double find_passed_on(const CompiledScene& scene);
+
 // An upper bound of the light any ray brings, every channel: B of the truncation bound w * B. Negative if none is
-// finite.
+// finite. REQUIRES: scene.passed_on.
 double find_radiance_bound(const CompiledScene& scene);
 
 // World-space box of a finite body, in the scene's normalised space.

@@ -90,6 +90,21 @@ std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const
   return warnings;
 }
 
+double find_passed_on(const CompiledScene& scene) {
+  double passed_on = 0.0;
+  for (const CompiledMaterial& m : scene.materials) {
+    const Color &kr = m.source.reflection, &kt = m.source.transmission;
+    // kr F + kt (1 - F) where the body is a medium; a thin one has no F.
+    const auto is_thin = [&](const CompiledBody& body) {
+      return &scene.materials[body.material] == &m && !body.closed;
+    };
+    const bool is_shared =
+        m.source.fresnel && m.is_transmissive && std::none_of(scene.bodies.begin(), scene.bodies.end(), is_thin);
+    passed_on = std::max(passed_on, max_channel(is_shared ? glm::max(kr, kt) : kr + kt));
+  }
+  return passed_on;
+}
+
 double find_radiance_bound(const CompiledScene& scene) {
   double light_sum = 0.0;  // the brightest channel of what all lights can bring to one point
   for (const CompiledLight& light : scene.lights) {
@@ -100,23 +115,15 @@ double find_radiance_bound(const CompiledScene& scene) {
     }
     light_sum += max_channel(light.intensity) * factor;
   }
-  double local = 0.0, passed_on = 0.0;
+  double local = 0.0;
   for (const CompiledMaterial& m : scene.materials) {
     const double ambient = max_channel(scene.ambient * max_color(m.source.ambient));
     const double lit = max_channel(max_color(m.source.diffuse) + m.source.specular);
     local = std::max(local, ambient + light_sum * lit);
-    const Color &kr = m.source.reflection, &kt = m.source.transmission;
-    // kr F + kt (1 - F) where the body is a medium; a thin one has no F.
-    const auto is_thin = [&](const CompiledBody& body) {
-      return &scene.materials[body.material] == &m && !body.closed;
-    };
-    const bool is_shared =
-        m.source.fresnel && m.is_transmissive && std::none_of(scene.bodies.begin(), scene.bodies.end(), is_thin);
-    passed_on = std::max(passed_on, max_channel(is_shared ? glm::max(kr, kt) : kr + kt));
   }
-  if (passed_on >= 1.0) return -1.0;
+  if (scene.passed_on >= 1.0) return -1.0;
   const double sky = std::max(max_channel(scene.background.bottom), max_channel(scene.background.top));
-  return std::max(sky, local / (1.0 - passed_on));
+  return std::max(sky, local / (1.0 - scene.passed_on));
 }
 
 FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {

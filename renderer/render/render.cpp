@@ -49,6 +49,8 @@ class TileRender final : public Render, public WorkSource {
         film_(width_, height_),
         error_map_(width_, height_, plan_.view.image.exposure) {
     report_.threads = pool.thread_count();
+    // Kernels of local light alone do not look at what surfaces would pass on.
+    if (plan_.view.render.max_depth == 0) untraced_weight_ = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
     open_pass(schedule_.next(standing_));
   }

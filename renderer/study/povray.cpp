@@ -68,12 +68,8 @@ void add_povray(const Studio& studio, const Scene& scene, const View& view, cons
   const TemporaryFolder folder;
   const PovScene pov = pov_scene(scene, view);
   std::ofstream(folder.file("scene.pov")) << pov.text;
-  StudySeries ours_to_it{
+  StudySeries series{
       .name = "POV-Ray", .method = "POV-Ray", .shading = "phong", .sampling = "grid", .precision = "double"};
-  StudySeries by_its_own = ours_to_it;
-  by_its_own.name = "POV-Ray, by its own finest picture";
-  constexpr int kFinest = 24;
-  const Image own = *draw(folder, view.image, studio.pool().thread_count(), kFinest).image;
   for (const int side : {1, 2, 3, 4, 6, 8}) {
     std::vector<Drawing> drawings;
     for (int round = 0; round < studio.options().rounds; ++round) {
@@ -83,17 +79,15 @@ void add_povray(const Studio& studio, const Scene& scene, const View& view, cons
     StudyRun run = run_of(drawings);
     run.told_rmse = -1.0;
     run.setting = side == 1 ? "1 sample" : std::to_string(side) + " x " + std::to_string(side) + " where pixels differ";
-    StudyRun to_own = run;
     judge(run, drawings, truth, view.image.exposure, studio.pool());
-    judge(to_own, drawings, own, view.image.exposure, studio.pool());
-    ours_to_it.runs.push_back(std::move(run));
-    by_its_own.runs.push_back(std::move(to_own));
+    series.runs.push_back(std::move(run));
   }
-  study.series.push_back(std::move(ours_to_it));
-  study.series.push_back(std::move(by_its_own));
+  study.series.push_back(std::move(series));
+  constexpr int kFinest = 24;
+  const Image finest = *draw(folder, view.image, studio.pool().thread_count(), kFinest).image;
   std::ostringstream note;
   note << "POV-Ray's finest picture (" << kFinest << " x " << kFinest << " samples) is "
-       << rms_difference(displayed_image(own, view.image.exposure), displayed_image(truth, view.image.exposure))
+       << rms_difference(displayed_image(finest, view.image.exposure), displayed_image(truth, view.image.exposure))
        << " off ours, rmse: no sampling brings its first curve below that.";
   study.notes.push_back(note.str());
   for (const std::string& difference : pov.differences) study.notes.push_back("In POV-Ray " + difference + ".");

@@ -225,10 +225,33 @@ TEST_F(Command, RendersAChessPositionAsItsPrintedSceneDoes) {
   EXPECT_TRUE(read("a.png") == read("b.png"));
 }
 
+TEST_F(Command, StudiesErrorAgainstRunTime) {
+  const Outcome outcome = run({"report", "scene.json", "-o", "study/of/it", "--width", "24", "--height", "16",
+                               "--samples", "8", "--rounds", "3"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("raytrace, phong, adaptive"), std::string::npos) << outcome.out;
+  const std::string html = read("study/of/it/report.html");
+  EXPECT_NE(html.find("</html>"), std::string::npos);
+  for (const char* name : {"reference.png", "picture.png", "error.png", "told.png"}) {
+    EXPECT_NE(html.find(name), std::string::npos) << name;
+    EXPECT_EQ(read(std::string("study/of/it/") + name).substr(1, 3), "PNG");
+  }
+  for (const char* name : {"study.json", "runs.csv", "error_time.svg"})
+    EXPECT_FALSE(read(std::string("study/of/it/") + name).empty()) << name;
+}
+
+TEST_F(Command, RefusesAStudyThatItCouldNotWrite) {
+  write("file", "");
+  const Outcome outcome = run({"report", "scene.json", "-o", "file/below"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("file/below"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"report", "scene.json", "-o", "study", "--samples", "7"}).code, 2);
+}
+
 TEST_F(Command, PrintsSchemaVersionAndHelp) {
   EXPECT_NE(run({"schema"}).out.find("https://json-schema.org/draft/2020-12/schema"), std::string::npos);
   EXPECT_EQ(run({"--version"}).out.substr(0, 10), "tilelight ");
-  for (const char* command : {"render", "plan", "chess", "schema"}) {
+  for (const char* command : {"render", "plan", "report", "chess", "schema"}) {
     const Outcome help = run({command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The statistics of a study by closed forms, and a small study whose numbers must hang together.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/study/statistics.h"
+#include "renderer/study/study.h"
+
+namespace tilelight {
+namespace {
+
+TEST(PowerLaws, AreFoundExactlyAndWithTheirDoubt) {
+  std::vector<Sample> samples;
+  for (const double x : {1.0, 2.0, 4.0, 8.0, 16.0}) samples.push_back({x, 3.0 * std::pow(x, -0.75)});
+  const auto exact = fit_power_law(samples);
+  ASSERT_TRUE(exact);
+  EXPECT_NEAR(exact->slope, -0.75, 1e-12);
+  EXPECT_NEAR(exact->high - exact->low, 0.0, 1e-7);
+  // Student's interval for a line through ln x = 0, 1, 2 and ln y = 0, 1, 0: slope 0, residual variance 2/3,
+  // sum of squares 2, t(0.975; 1) = 12.706.
+  const double e = std::exp(1.0);
+  const auto loose = fit_power_law({{1.0, 1.0}, {e, e}, {e * e, 1.0}});
+  ASSERT_TRUE(loose);
+  EXPECT_NEAR(loose->slope, 0.0, 1e-12);
+  EXPECT_NEAR(loose->high, 12.706 * std::sqrt((2.0 / 3.0) / 2.0), 1e-9);
+  EXPECT_FALSE(fit_power_law({{1.0, 1.0}, {2.0, 1.0}}));
+  EXPECT_FALSE(fit_power_law({{1.0, 1.0}, {2.0, 0.0}, {3.0, 1.0}}));
+}
+
+TEST(Curves, AreStraightOnLogarithmicAxes) {
+  const std::vector<Sample> curve{{1.0, 1.0}, {100.0, 0.01}};
+  EXPECT_NEAR(*on_curve(curve, 10.0), 0.1, 1e-12);
+  EXPECT_FALSE(on_curve(curve, 0.5));
+  EXPECT_FALSE(on_curve(curve, 101.0));
+}
+
+TEST(ParetoFronts, HaveWhatNothingBeats) {
+  EXPECT_EQ(pareto_front({{1, 5}, {2, 3}, {3, 4}, {4, 1}, {4, 1}}), (std::vector<bool>{true, true, false, true, true}));
+}
+
+TEST(Medians, AreInTheMiddle) {
+  EXPECT_EQ(median({3, 1, 2}), 2.0);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+}
+
+constexpr const char* kScene = R"({
+  "image": {"width": 32, "height": 24},
+  "materials": {"mirror": {"diffuse": 0.2, "reflection": 0.7}},
+  "objects": [{"type": "plane", "material": {"diffuse": {"checker": {"size": 0.7}}}},
+              {"type": "sphere", "center": [0, 1, 0], "material": "mirror"},
+              {"type": "sphere", "center": [2, 1, 0.5], "material": "mirror"}]})";
+
+class SmallStudy : public testing::Test {
+ protected:
+  static const Study& study() {
+    static const Study made = [] {
+      TilePool pool(2);
+      StudyOptions options;
+      options.most_samples = 16, options.rounds = 3;
+      return *make_study(*parse_scene(kScene, Limits{}), "small", pool, options);
+    }();
+    return made;
+  }
+};
+
+TEST_F(SmallStudy, HasAReferenceThatIsTenTimesAsGood) {
+  EXPECT_GT(study().reference_rmse, 0.0);
+  EXPECT_LE(study().reference_rmse, 0.1 * study().least_rmse);
+}
+
+TEST_F(SmallStudy, SeesTheErrorFallAsTheFieldKnowsIt) {
+  const StudySeries& uniform = study().series.front();
+  ASSERT_EQ(uniform.runs.size(), 5u);  // 1, 2, 4, 8, 16
+  for (size_t i = 1; i < uniform.runs.size(); ++i)
+    EXPECT_LT(uniform.runs[i].error.rmse, uniform.runs[i - 1].error.rmse);
+  ASSERT_TRUE(uniform.by_samples);
+  EXPECT_LT(uniform.by_samples->slope, -0.5);  // better than random
+  EXPECT_GT(uniform.by_samples->slope, -1.5);
+}
+
+TEST_F(SmallStudy, FindsNoDifferenceBetweenOursAndTheTwinInDouble) {
+  const StudySeries &uniform = study().series.front(), &twin = study().series[2];
+  ASSERT_EQ(twin.name, "reference renderer");
+  EXPECT_NEAR(twin.runs[1].rmse_by_round[0], uniform.runs[2].rmse_by_round[0], 1e-5);  // the same four samples
+  EXPECT_LT(study().components.rounding, 1e-4);
+}
+
+TEST_F(SmallStudy, KnowsTheQuantisationOfEightBits) {
+  EXPECT_NEAR(study().components.quantisation, 1.0 / (255.0 * std::sqrt(12.0)), 2e-4);
+}
+
+// The light that a smaller depth leaves untraced is really less than the bound.
+TEST_F(SmallStudy, FindsTheTruncationWithinItsBound) {
+  int bounded = 0;
+  for (const KnobRow& row : study().knobs) {
+    if (row.truncation_bound < 0.0 || row.is_exact) continue;
+    EXPECT_LE(row.truncation, row.truncation_bound + 1e-9) << row.knob << " " << row.value;
+    ++bounded;
+  }
+  EXPECT_GE(bounded, 8);
+  EXPECT_GT(study().knobs.front().truncation, 0.001);  // depth 0: no mirror shows anything
+}
+
+TEST_F(SmallStudy, MarksAFront) {
+  int marked = 0;
+  for (const StudySeries& series : study().series) {
+    for (const StudyRun& run : series.runs) marked += run.is_on_front;
+  }
+  EXPECT_GE(marked, 1);
+}
+
+TEST_F(SmallStudy, WritesARowForEveryRun) {
+  const std::string csv = study_csv(study());
+  size_t runs = 0;
+  for (const StudySeries& series : study().series) runs += series.runs.size();
+  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), runs + 1);
+}
+
+TEST(AStudy, CanBeCancelled) {
+  TilePool pool(2);
+  StudyOptions options;
+  int asked = 0;
+  options.is_cancelled = [&asked] { return ++asked > 3; };
+  EXPECT_FALSE(make_study(*parse_scene(kScene, Limits{}), "small", pool, options));
+}
+
+}  // namespace
+}  // namespace tilelight
