@@ -87,7 +87,8 @@ function setRule(next) {
 
 function chooseRule(next) {
   setRule(next);
-  status.again();
+  viewer.drawAgain();
+  if (shown.text) status.again();
   history.replaceState(null, '', linkWithRule(location.hash, rule));
 }
 

@@ -65,9 +65,13 @@ export class Viewer {
     });
   }
 
-  // What ends the picture, as of rules.js; null = what the scene says.
+  // What ends the pictures that are asked for from now on, as of rules.js; null = what the scene says.
   setRule(rule) {
     this.#rule = rule;
+  }
+
+  // Asks for the present view from the first sample on.
+  drawAgain() {
     if (this.#camera) this.#session.look(this.#view(false));
   }
 
