@@ -61,7 +61,7 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
 
 test('every control has a name and shows the focus', async () => {
   await onPage({ server, path: kQuickScene }, async ({ page }) => {
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas')]
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas:not([aria-hidden])')]
       .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
       .map((e) => e.outerHTML));
     assert.deepEqual(nameless, []);

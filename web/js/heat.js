@@ -44,13 +44,16 @@ export class HeatLayer {
     this.#present();
     if (this.#isLoading) return;
     this.#isLoading = true;
-    while (this.#toggle.checked && this.#wanted && !this.#isShown(this.#wanted)) {
-      const asked = this.#wanted;
-      const map = await this.#load(asked);
-      if (!map && asked === this.#wanted) break;  // a session that goes on after a failure sends new frames
-      if (map && map.viewSeq === this.#wanted?.viewSeq) await this.#draw(map);
+    try {
+      while (this.#toggle.checked && this.#wanted && !this.#isShown(this.#wanted)) {
+        const asked = this.#wanted;
+        const map = await this.#load(asked);
+        if (map && map.viewSeq === this.#wanted?.viewSeq) await this.#draw(map);
+        else if (asked === this.#wanted) break;  // gone by, or a failure: the next frame tries again
+      }
+    } finally {
+      this.#isLoading = false;
     }
-    this.#isLoading = false;
   }
 
   #isShown({ viewSeq, number }) {

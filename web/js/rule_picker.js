@@ -69,5 +69,6 @@ export class RulePicker {
   #complain(error) {
     this.#error.textContent = error;
     this.#input.setAttribute('aria-invalid', String(Boolean(error)));
+    if (error) this.#error.scrollIntoView({ block: 'nearest' });
   }
 }

@@ -9,9 +9,9 @@ const kSlope = -3 / 4;  // of error against samples where there are edges: rende
 
 // `factor`: one of the unit that the user reads and writes, in the scene's unit.
 export const kRules = {
-  samples: { name: 'Samples', unit: 'samples a pixel', factor: 1, presets: [4, 16, 64, 256], first: 64, isWhole: true, most: 4096 },
-  rmse: { name: 'Error', unit: 'of the way from black to white', factor: 1, presets: [0.01, 0.004, 0.002, 0.001], first: 0.004, most: 1 },
-  time_ms: { name: 'Time', unit: 'seconds', factor: 1000, presets: [0.5, 2, 10, 60], first: 2000, most: 600_000 },
+  samples: { unit: 'samples a pixel', factor: 1, presets: [4, 16, 64, 256], first: 64, isWhole: true, most: 4096 },
+  rmse: { unit: 'of the way from black to white', factor: 1, presets: [0.01, 0.004, 0.002, 0.001], first: 0.004, most: 1 },
+  time_ms: { unit: 'seconds', factor: 1000, presets: [0.5, 2, 10, 60], first: 2000, most: 600_000 },
 };
 
 // The rule that a user's number, or a link's, means: {rule}, or {error} in words. `limits` as the server tells them.
