@@ -181,10 +181,14 @@ test('a rule goes along in the link and in the curl command, and the download is
 
 test('a rule by time ends the picture in that time', async () => {
   await onPage({ server, settings: kTiny, path: kQuickScene }, async ({ page }) => {
+    const heard = overhear(page);
     await openPanel(page, 'error');
     await chooseRule(page, 'time_ms');
     await page.waitForSelector('#status-main:has-text("Time is up: 2 s")', { state: 'attached' });  // hidden behind the panel
-    assert.match(await page.textContent('#status-more'), /^error 0\.0\d+ · [\d.]+ samples$/);
+    const { info } = heard.frames.at(-1);
+    assert.match(info, /stop="time"/);
+    const spp = Number(/spp=([\d.]+)/.exec(info)[1]);
+    assert.ok((await page.textContent('#status-more')).includes(spp === 1 ? '1 sample' : `${Number(spp.toFixed(1))} samples`));
   });
 });
 

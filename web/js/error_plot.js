@@ -32,7 +32,10 @@ export function drawErrorPlot(plot, { current, before }, asked) {
   plot.setAttribute('aria-label', describeCurve(current.points));
   const all = [...current.points, ...(before?.points ?? [])];
   plot.replaceChildren();
-  if (all.length === 0) return;
+  if (all.length === 0) {
+    plot.append(svg('text', { x: width / 2, y: kHeight / 2, class: 'is-middle' }, 'The curve begins with the second sample.'));
+    return;
+  }
   const axes = {
     x: logAxis([...all.map(({ ms }) => ms), ...present(asked.time_ms)], kLeft, width - kRight, kLabelPx.x),
     y: logAxis([...all.map(({ rmse }) => rmse), ...present(asked.rmse)], kHeight - kBottom, kTop, kLabelPx.y),
