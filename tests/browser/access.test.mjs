@@ -31,7 +31,7 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
         path: where, expected: [/422/],
       }, async ({ page }) => {
         assert.deepEqual(await findViolations(page), [], 'closed');
-        for (const panel of ['scenes', 'edit', 'plan']) {
+        for (const panel of ['scenes', 'edit', 'plan', 'error']) {
           await openPanel(page, panel);
           assert.deepEqual(await findViolations(page), [], panel);
           if (panel === 'edit' && size === 'phone') {
@@ -44,6 +44,14 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
             await page.waitForSelector('.error:has-text("radius")');
             assert.deepEqual(await findViolations(page), [], 'edit with a mistake');
           }
+          if (panel === 'error') {
+            await page.check('#heat-toggle');
+            await page.click('.segments label:has([value=rmse])');
+            await page.fill('#rule-number', '-1');
+            await page.keyboard.press('Enter');
+            await page.waitForSelector('#rule-error:not(:empty)');
+            assert.deepEqual(await findViolations(page), [], 'error with colours and a number that is none');
+          }
           await page.keyboard.press('Escape');
         }
       });
@@ -53,17 +61,17 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
 
 test('every control has a name and shows the focus', async () => {
   await onPage({ server, path: kQuickScene }, async ({ page }) => {
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas')]
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas:not([aria-hidden])')]
       .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
       .map((e) => e.outerHTML));
     assert.deepEqual(nameless, []);
     const seen = [];
-    for (let i = 0; i < 8; ++i) {
+    for (let i = 0; i < 9; ++i) {
       await page.keyboard.press('Tab');
       seen.push(await page.evaluate(() => [document.activeElement.id, getComputedStyle(document.activeElement).outlineStyle]));
     }
-    assert.deepEqual(seen.map(([id]) => id), ['picture', 'scenes-button', 'edit-button', 'plan-button', 'reset-button',
-      'link-button', 'curl-button', 'download-button']);
+    assert.deepEqual(seen.map(([id]) => id), ['picture', 'scenes-button', 'edit-button', 'plan-button', 'error-button',
+      'reset-button', 'link-button', 'curl-button', 'download-button']);
     assert.ok(seen.every(([, outline]) => outline === 'solid'));
   });
 });
@@ -79,7 +87,7 @@ test('a movement is spoken of once, when its picture is done', async () => {
     await afterMoving(page, () => page.keyboard.press('Shift+ArrowLeft'));
     await page.waitForFunction(() => window.spoken.some((text) => text !== ''));
     const spoken = (await page.evaluate(() => window.spoken)).filter((text) => text !== '');
-    assert.deepEqual(spoken, ['The picture is done: 16 samples.']);
+    assert.deepEqual(spoken, ['The picture is done: 16 samples taken.']);
   });
 });
 

@@ -66,18 +66,24 @@ export async function putView(id, view) {
   await call(`/v1/sessions/${id}/view`, { method: 'PUT', headers: kJson, body: JSON.stringify(view) });
 }
 
-// Waits for a frame newer than number `after`; null when none came in time.
-export async function nextFrame(id, after, format, signal) {
-  const response = await call(`/v1/sessions/${id}/frame?after=${after}`, { headers: { Accept: format }, signal });
+// Waits for a frame newer than number `after`; null when none came in time. `layer`: color, or error for a map of it.
+export async function nextFrame(id, after, format, signal, layer = 'color') {
+  const path = `/v1/sessions/${id}/frame?after=${after}${layer === 'color' ? '' : `&layer=${layer}`}`;
+  const response = await call(path, { headers: { Accept: format }, signal });
   if (response.status === 204) return null;
   return {
     number: Number(response.headers.get('Frame-Seq')),
     viewSeq: Number(response.headers.get('View-Seq')),
     isFinal: response.headers.get('Frame-Final') === '?1',
-    spp: Number(/(?:^|[ ,])spp=(\d+)/.exec(response.headers.get('Render-Info') ?? '')?.[1] ?? 0),
+    ...parseRenderInfo(response.headers.get('Render-Info')),
     timings: parseServerTiming(response.headers.get('Server-Timing')),
     blob: await blobOf(response),
   };
+}
+
+// What may be asked for: {samples, time_ms, ...}.
+export async function limits() {
+  return jsonOf(call('/v1/limits'));
 }
 
 // What the server would do for a whole scene document, and what that should cost; nothing is drawn.
@@ -99,6 +105,18 @@ export async function renderImage(document, format = 'image/png') {
       throw new Problem(409, { detail: status.error?.detail ?? `The render was ${status.state}.` });
     }
   }
+}
+
+// {spp, rmse, stop} of a Render-Info header: samples a pixel, the error of the picture (null while unknown) and the rule
+// that ended it (null while none has).
+export function parseRenderInfo(header) {
+  const find = (pattern) => pattern.exec(header ?? '')?.[1] ?? null;
+  const rmse = find(/(?:^|[ ,])rmse=([\d.]+)/);
+  return {
+    spp: Number(find(/(?:^|[ ,])spp=([\d.]+)/) ?? 0),
+    rmse: rmse === null ? null : Number(rmse),
+    stop: find(/(?:^|[ ,])stop="(\w+)"/),
+  };
 }
 
 // {name: milliseconds} of a Server-Timing header.

@@ -4,13 +4,17 @@ import * as api from './api.js';
 import { copy } from './clipboard.js';
 import { byId } from './dom.js';
 import { Editor } from './editor.js';
+import { ErrorPanel } from './error_panel.js';
 import { FenField } from './fen.js';
+import { HeatLayer } from './heat.js';
 import { Panels } from './panels.js';
 import { showPlan, showPrediction, showTimings } from './plan.js';
+import { RulePicker } from './rule_picker.js';
+import { withRule } from './rules.js';
 import { findPosition, sameCamera, withFen } from './scene_text.js';
 import { ScenePicker } from './scenes.js';
 import { Superseded } from './session.js';
-import { curlCommand, decodeLink, encodeLink, stillDocument } from './share.js';
+import { curlCommand, decodeLink, encodeLink, linkWithRule, stillDocument } from './share.js';
 import { showHint, Status } from './status.js';
 import { say } from './toast.js';
 import { Viewer } from './viewer.js';
@@ -24,6 +28,8 @@ const viewer = new Viewer(byId('picture'), {
   on: {
     frame: (event) => {
       status.show(event);
+      errorPanel.take(event.frame);
+      heat.follow(event.frame, event.moving);
       if (!event.frame.isFinal || event.moving) return;
       showTimings(byId('plan-body'), event.frame.timings);
       foretell();
@@ -34,13 +40,18 @@ const viewer = new Viewer(byId('picture'), {
 });
 const panels = new Panels([
   [{ button: 'scenes-button', panel: 'scenes-panel' }],
-  [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' }],
+  [{ button: 'edit-button', panel: 'edit-panel' }, { button: 'plan-button', panel: 'plan-panel' },
+    { button: 'error-button', panel: 'error-panel' }],
 ]);
 const editor = new Editor({ edited: drawEdit });
 const fenField = new FenField({ edited: drawFen });
+const errorPanel = new ErrorPanel();
+const heat = new HeatLayer({ load: (frame) => viewer.errorMap(frame) });
+const rulePicker = new RulePicker({ changed: chooseRule });
 
 // What is on show: the scene's file and title (file null once it was edited) and its text as the server took it.
 const shown = { file: null, title: 'Your scene', text: null };
+let rule = null;  // what ends the picture, as of rules.js; the address keeps it
 let scenes = [];
 let picker = null;
 
@@ -50,7 +61,7 @@ async function open(load, { file = null, title = shown.title, isEdited = false, 
   const info = await viewer.open(load, camera);
   const scene = JSON.parse(info.text);
   Object.assign(shown, { file, title, text: info.text });
-  status.expect(scene.render);
+  expectRules(scene.render);
   byId('scene-title').textContent = isEdited ? `${title}, edited` : title;
   byId('picture').setAttribute('aria-label', `Picture: ${title}`);
   document.title = `${title} · Tilelight`;
@@ -58,6 +69,27 @@ async function open(load, { file = null, title = shown.title, isEdited = false, 
   picker?.mark(file);
   fenField.show(findPosition(scene));
   showPlan(byId('plan-body'), info);
+}
+
+// What ends the picture from here on, under the scene's own rules.
+function expectRules(render) {
+  status.expect(withRule(render, rule));
+  errorPanel.expect(withRule(render, rule));
+  rulePicker.setScene(render);
+}
+
+function setRule(next) {
+  rule = next;
+  viewer.setRule(rule);
+  rulePicker.show(rule);
+  if (shown.text) expectRules(JSON.parse(shown.text).render);
+}
+
+function chooseRule(next) {
+  setRule(next);
+  viewer.drawAgain();
+  if (shown.text) status.again();
+  history.replaceState(null, '', linkWithRule(location.hash, rule));
 }
 
 // As open(), for a scene that somebody else wrote: what goes wrong is said in the notice.
@@ -79,7 +111,7 @@ async function foretell() {
 }
 
 function pick(scene) {
-  history.replaceState(null, '', `#scene=${scene.file.replace(/\.json$/, '')}`);
+  history.replaceState(null, '', linkWithRule(`scene=${scene.file.replace(/\.json$/, '')}`, rule));
   openOrExplain(() => api.loadScene(scene.file), { file: scene.file, title: scene.title });
   if (matchMedia('(max-width: 720px)').matches) panels.close('scenes-panel');
 }
@@ -138,7 +170,7 @@ async function download() {
 
 async function copyLink() {
   const scene = shown.file?.replace(/\.json$/, '');
-  const hash = await encodeLink({ scene, text: scene ? null : shown.text, camera: viewer.camera });
+  const hash = await encodeLink({ scene, text: scene ? null : shown.text, camera: viewer.camera, rule });
   history.replaceState(null, '', hash);
   await copy(location.href, 'Link');
 }
@@ -149,7 +181,8 @@ function copyCurl() {
 
 // Opens what the address asks for. If there is no such thing, the first scene comes as it is, and a word that it did.
 async function openLink() {
-  const { scene, text, camera, isDamaged } = await decodeLink(location.hash);
+  const { scene, text, camera, rule: asked, isDamaged } = await decodeLink(location.hash);
+  setRule(asked);
   if (text) {
     await openOrExplain(() => text, { title: 'Shared scene', camera });
     return;
@@ -169,6 +202,7 @@ async function start() {
     return;
   }
   picker = new ScenePicker({ api, list: byId('scene-list'), scenes, pick });
+  api.limits().then((limits) => rulePicker.setLimits(limits), () => {});  // without them the server is the judge
   addEventListener('hashchange', openLink);
   await openLink();
 }
@@ -176,6 +210,10 @@ async function start() {
 byId('scenes-panel').addEventListener('panel-open', () => picker?.drawThumbnails());
 byId('plan-panel').addEventListener('panel-open', foretell);
 byId('reset-button').addEventListener('click', () => viewer.reset());
+byId('picture').addEventListener('keydown', (event) => {
+  const isPlain = !event.altKey && !event.ctrlKey && !event.metaKey && !event.repeat;
+  if (isPlain && event.key.toLowerCase() === 'h') heat.toggle();
+});
 byId('link-button').addEventListener('click', copyLink);
 byId('curl-button').addEventListener('click', copyCurl);
 byId('download-button').addEventListener('click', download);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan panel: what the scene uses, what was left out and why, and its size in the server.
 import { el } from './dom.js';
+import { duration } from './numbers.js';
 
 const kCount = new Intl.NumberFormat('en');
 const kTimingNames = { parse: 'Reading', queue: 'Waiting', compile: 'Compiling', render: 'Rendering', encode: 'Encoding' };
@@ -88,10 +89,4 @@ function bytes(n) {
   if (n === undefined) return null;
   if (n < 1024 * 1024) return `${Math.max(1, Math.round(n / 1024))} KiB`;
   return `${(n / 1024 / 1024).toFixed(1)} MiB`;
-}
-
-function duration(ms) {
-  if (ms === undefined) return null;
-  if (ms >= 1000) return `${(ms / 1000).toFixed(1)} s`;
-  return ms >= 1 ? `${Math.round(ms)} ms` : `${Math.round(ms * 1000)} µs`;
 }

@@ -76,6 +76,17 @@ export class ViewSession {
     this.#send();
   }
 
+  // The error by pixel of `frame`, or of a newer one; null if it cannot be had, of which the state tells.
+  async errorMap(frame) {
+    const id = this.#id;
+    try {
+      return await this.#api.nextFrame(id, frame.number - 1, 'image/png', undefined, 'error');
+    } catch (error) {
+      this.#fail(id, error);
+      return null;
+    }
+  }
+
   close() {
     this.#polling?.abort();
     if (this.#id) this.#discard(this.#id);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The present view in a form that leaves the page: a link, or a command for a shell. Pure but for the compression, which
 // the browser does.
+import { kRules, readRule, withRule } from './rules.js';
 
-// A scene document with the picture's present camera and size.
-export function stillDocument(sceneText, still) {
+// A scene document with the picture's present camera, size and stop rule.
+export function stillDocument(sceneText, { camera, image, rule = null }) {
   const scene = JSON.parse(sceneText);
-  return { ...scene, camera: still.camera, image: { ...scene.image, ...still.image } };
+  const out = { ...scene, camera, image: { ...scene.image, ...image } };
+  return rule ? { ...out, render: withRule(scene.render, rule) } : out;
 }
 
 // A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
@@ -21,12 +23,20 @@ export function curlCommand(origin, document) {
   ].join('\n');
 }
 
-// {scene: name} or {text: scene JSON}, and {camera}, to and from the part of a link after its #.
-export async function encodeLink({ scene, text, camera }) {
+// {scene: name} or {text: scene JSON}, {camera} and {rule}, to and from the part of a link after its #.
+export async function encodeLink({ scene, text, camera, rule }) {
   const parts = new URLSearchParams();
   if (text) parts.set('json', toBase64Url(await deflate(text)));
   else parts.set('scene', scene);
   if (camera) parts.set('camera', cameraNumbers(camera).join(','));
+  return linkWithRule(parts, rule);
+}
+
+// A link with another rule, and all else as it was.
+export function linkWithRule(hash, rule) {
+  const parts = new URLSearchParams(typeof hash === 'string' ? hash.replace(/^#/, '') : hash);
+  for (const key of Object.keys(kRules)) parts.delete(key);
+  if (rule) parts.set(rule.key, String(rule.value));
   return `#${decodeURIComponent(parts.toString())}`;
 }
 
@@ -35,7 +45,15 @@ export async function decodeLink(hash) {
   const parts = new URLSearchParams(hash.replace(/^#/, ''));
   const json = parts.get('json');
   const text = json === null ? null : await inflate(fromBase64Url(json)).catch(() => null);
-  return { scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')), isDamaged: json !== null && !text };
+  return {
+    scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')), rule: ruleFrom(parts),
+    isDamaged: json !== null && !text,
+  };
+}
+
+function ruleFrom(parts) {
+  const key = Object.keys(kRules).find((name) => parts.has(name));
+  return key ? readRule(key, parts.get(key), { factor: 1 }).rule ?? null : null;
 }
 
 function cameraNumbers(camera) {

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the picture is, calmly: a ring that fills, samples of how many, size and time. And what stands in the way, when
-// something does.
+// How far the picture is, calmly: a ring that fills, samples of how many, size and time, and why it is finished. And what
+// stands in the way, when something does.
 import { byId } from './dom.js';
+import { duration, errorText, samplesNumber, samplesText } from './numbers.js';
+import { endOf, progressOf, samplesAsked } from './rules.js';
 
 const kHintMs = 9000;
+const kAlmost = 0.99;  // what no frame but the last one exceeds
 
 export class Status {
-  #total = null;  // samples a pixel that the scene asks for; null when it asks for time or an error instead
+  #render = {};  // the rules in force
   #since = performance.now();
 
   expect(render = {}) {
-    this.#total = render.samples ?? (render.time_ms || render.rmse ? null : 16);
+    this.#render = render;
     this.#since = performance.now();
   }
 
@@ -18,21 +21,39 @@ export class Status {
     this.#since = performance.now();
   }
 
+  // The same picture from the first sample on, under other rules.
+  again() {
+    this.restart();
+    this.#set(0, 'Starting again', [], '');
+  }
+
   show({ frame, size, moving }) {
     byId('cover').classList.add('is-gone');
     const pixels = `${size.width} × ${size.height}`;
     if (moving) {
       this.#since = performance.now();
-      this.#set(0, 'Preview', pixels);
+      this.#set(0, 'Preview', [], pixels);
       byId('spoken').textContent = '';  // so that the same words are said again
       return;
     }
-    const share = frame.isFinal ? 1 : this.#total ? frame.spp / this.#total : 0.5;
-    const samples = frame.spp === 1 ? '1 sample' : `${frame.spp} samples`;
-    const main = frame.isFinal ? samples : this.#total ? `${frame.spp} of ${this.#total} samples` : samples;
-    const seconds = (performance.now() - this.#since) / 1000;
-    this.#set(share, main, frame.isFinal ? `${pixels} · ${formatSeconds(seconds)}` : pixels);
-    if (frame.isFinal) byId('spoken').textContent = `The picture is done: ${main}.`;
+    if (!frame.isFinal) {
+      this.#set(Math.min(kAlmost, progressOf(frame, this.#render)), this.#progress(frame), [], pixels);
+      return;
+    }
+    const main = endOf(frame, this.#render);
+    const samples = samplesText(frame.spp);
+    const took = duration(performance.now() - this.#since);
+    const error = frame.rmse === null ? [] : [`error ${errorText(frame.rmse)}`];
+    const more = { rmse: [samples, took], time: [...error, samples] }[frame.stop] ?? [took];
+    this.#set(1, main, more, pixels);
+    byId('spoken').textContent = `The picture is done: ${main}.`;
+  }
+
+  #progress({ spp, rmse }) {
+    const total = samplesAsked(this.#render);
+    if (total) return `${samplesNumber(spp)} of ${samplesText(total)}`;
+    if (this.#render.rmse && rmse !== null) return `Error ${errorText(rmse)}, ${errorText(this.#render.rmse)} asked`;
+    return samplesText(spp);
   }
 
   // `name` as of ViewSession's states.
@@ -48,7 +69,7 @@ export class Status {
   // A scene that did not come: says so and offers `retry`.
   broken(sentence, retry) {
     const cover = byId('cover');
-    if (!cover.classList.contains('is-gone')) this.#set(0, 'No picture', '');
+    if (!cover.classList.contains('is-gone')) this.#set(0, 'No picture', [], '');
     cover.classList.add('is-empty');
     this.#notify(sentence, 'warning');
     const button = byId('notice-button');
@@ -67,7 +88,7 @@ export class Status {
     byId('notice-button').hidden = true;
   }
 
-  #set(share, main, more) {
+  #set(share, main, more, pixels) {
     const ring = byId('progress');
     const percent = Math.round(share * 100);
     ring.style.setProperty('--share', `${percent}%`);
@@ -75,7 +96,8 @@ export class Status {
     ring.setAttribute('aria-valuenow', String(percent));
     ring.setAttribute('aria-valuetext', main);
     byId('status-main').textContent = main;
-    byId('status-more').textContent = more;
+    byId('status-more').textContent = more.join(' · ');
+    byId('status-size').textContent = pixels;
   }
 }
 
@@ -88,8 +110,4 @@ export function showHint() {
   const hide = () => hint.classList.remove('is-shown');
   setTimeout(hide, kHintMs);
   return hide;
-}
-
-function formatSeconds(seconds) {
-  return seconds < 1 ? `${Math.round(seconds * 1000)} ms` : `${seconds.toFixed(1)} s`;
 }

@@ -6,6 +6,7 @@ import { attachGestures } from './gestures.js';
 import { Inertia, kSettleMs } from './inertia.js';
 import { Picture } from './picture.js';
 import { fullSize, nextScale, scaledSize } from './resolution.js';
+import { rulePatch } from './rules.js';
 import { kOverdueMs, ViewSession } from './session.js';
 
 const kRestMs = 140;      // without movement before the full picture is asked for
@@ -21,6 +22,7 @@ export class Viewer {
   #on;
   #camera = null;
   #home = null;
+  #rule = null;
   #pictureAspect = 16 / 9;
   #full = { width: 1, height: 1 };
   #scale = kFirstScale;
@@ -63,13 +65,27 @@ export class Viewer {
     });
   }
 
+  // What ends the pictures that are asked for from now on, as of rules.js; null = what the scene says.
+  setRule(rule) {
+    this.#rule = rule;
+  }
+
+  // Asks for the present view from the first sample on.
+  drawAgain() {
+    if (this.#camera) this.#session.look(this.#view(false));
+  }
+
+  errorMap(frame) {
+    return this.#session.errorMap(frame);
+  }
+
   get camera() {
     return this.#camera;
   }
 
-  // What a full render of the present view takes: the keys `camera` and `image` of a scene.
+  // What a full render of the present view takes: the keys `camera` and `image` of a scene, and the rule.
   get still() {
-    return { camera: this.#fitted(), image: { ...this.#full } };
+    return { camera: this.#fitted(), image: { ...this.#full }, rule: this.#rule };
   }
 
   reset() {
@@ -86,7 +102,8 @@ export class Viewer {
 
   #view(moving) {
     const image = moving ? scaledSize(this.#full, this.#scale) : this.#full;
-    return { camera: this.#fitted(), image, moving };
+    const render = this.#rule && !moving ? { render: rulePatch(this.#rule) } : {};
+    return { camera: this.#fitted(), image, moving, ...render };
   }
 
   #move(part, cursor) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { parseServerTiming } from '../../../web/js/api.js';
+import { parseRenderInfo, parseServerTiming } from '../../../web/js/api.js';
 import { findPosition, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
-import { curlCommand, decodeLink, encodeLink, stillDocument } from '../../../web/js/share.js';
+import { curlCommand, decodeLink, encodeLink, linkWithRule, stillDocument } from '../../../web/js/share.js';
 
 const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
 const kText = `{
@@ -65,7 +65,7 @@ test('a link brings back scene, text and camera', async () => {
 });
 
 test('a broken link is no link, and one with a text that cannot be read is known as damaged', async () => {
-  const nothing = { scene: null, text: null, camera: null, isDamaged: false };
+  const nothing = { scene: null, text: null, camera: null, rule: null, isDamaged: false };
   for (const hash of ['', '#', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
     assert.deepEqual(await decodeLink(hash), nothing);
   }
@@ -81,9 +81,30 @@ test('what is sent for a still picture keeps the exposure and takes camera and s
   assert.deepEqual(document, { image: { width: 640, height: 360, exposure: 1 }, objects: [], camera: kCamera });
 });
 
+test('a stop rule goes into a link and into a still picture, in place of what the scene says', async () => {
+  const rule = { key: 'rmse', value: 0.004 };
+  const link = await encodeLink({ scene: 'opening', camera: kCamera, rule });
+  assert.match(link, /&rmse=0\.004$/);
+  assert.deepEqual((await decodeLink(link)).rule, rule);
+  assert.equal(linkWithRule(link, null), await encodeLink({ scene: 'opening', camera: kCamera }));
+  assert.equal(linkWithRule('', { key: 'time_ms', value: 500 }), '#time_ms=500');
+  for (const odd of ['#rmse=', '#rmse=-1', '#rmse=x', '#samples=1.5', '#samples=0', '#time_ms=1e9']) {
+    assert.equal((await decodeLink(odd)).rule, null, odd);
+  }
+  const text = '{"render": {"samples": 16, "passes": [1, 15], "max_depth": 10}, "objects": []}';
+  const { render } = stillDocument(text, { camera: kCamera, image: {}, rule });
+  assert.deepEqual(render, { max_depth: 10, rmse: 0.004 });
+});
+
 test('a curl command holds the scene where the shell changes nothing', () => {
   const command = curlCommand('http://127.0.0.1:1', { name: "it's $HOME `x`" });
   assert.match(command, /<<'SCENE'\n\{"name":"it's \$HOME `x`"\}\nSCENE\n$/);
+});
+
+test('Render-Info is read, also where samples are no whole number or the error is unknown', () => {
+  assert.deepEqual(parseRenderInfo('spp=12.625, stop="rmse", rmse=0.003712, nonfinite=0'), { spp: 12.625, rmse: 0.003712, stop: 'rmse' });
+  assert.deepEqual(parseRenderInfo('spp=1, nonfinite=0'), { spp: 1, rmse: null, stop: null });
+  assert.deepEqual(parseRenderInfo(null), { spp: 0, rmse: null, stop: null });
 });
 
 test('Server-Timing is read by name', () => {
