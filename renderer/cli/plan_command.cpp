@@ -73,8 +73,12 @@ void print_view(std::ostream& out, const ViewPlan& plan, bool is_framed, const C
       << vector_text(camera.target) << "\n"
       << "kernel    " << plan.plan.kernel << " on " << plan.plan.isa << "\n"
       << "features  " << features_text(plan.features) << "\n";
-  out << "predicted " << rounded(cost.mrays) << " million rays, " << rounded(cost.elapsed_ms / 1000.0) << " s on "
-      << threads << (threads == 1 ? " thread\n" : " threads\n");
+  out << "predicted " << rounded(cost.mrays) << " million rays, " << rounded(cost.spp) << " samples a pixel\n"
+      << "          " << rounded(cost.elapsed_ms / 1000.0) << " s (" << rounded(cost.elapsed_low_ms / 1000.0) << " to "
+      << rounded(cost.elapsed_high_ms / 1000.0) << ") on " << threads << (threads == 1 ? " thread\n" : " threads\n");
+  if (cost.rmse >= 0.0)
+    out << "          rmse " << rounded(cost.rmse) << " (" << rounded(cost.rmse_low) << " to "
+        << rounded(cost.rmse_high) << ")\n";
 }
 
 void print_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {

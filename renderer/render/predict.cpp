@@ -18,7 +18,7 @@ namespace {
 
 // What the model of a picture leaves out, measured over the example scenes: relative standard deviations.
 constexpr double kPriceDeviation = 0.12;  // of the time of a ray
-constexpr double kModelDeviation = 0.10;  // of the error, beside the chance of which cells were probed
+constexpr double kModelDeviation = 0.15;  // of the error, beside the chance of which patches were probed
 constexpr double kNormal95 = 1.96;
 constexpr double kReporting = 1.03;  // time with the error told over time without
 constexpr double kToldHigh = 1.1;    // the upper end of what is told over the error, in large pictures
@@ -27,7 +27,7 @@ struct Outcome {
   double spp = 0.0, elapsed_ms = 0.0, rmse = -1.0;
 };
 
-// A picture that is made of the probed cells alone, as if each had its share of it.
+// A picture that is made of the probed patches alone; each is a cell that stands for its share of the image.
 class Model {
  public:
   // price: ms a sample of a pixel, of the whole image. error_scale: of the errors.
@@ -105,11 +105,12 @@ class Model {
   double rmse_ = -1.0;
 };
 
-// Of the error, by the chance of which cells were probed: a few of them may hold most of it.
+// Of the error, by the chance of which patches were probed: a few of them may hold most of it, and then their own
+// scatter, which would give half of this, says too little of what was missed.
 double error_deviation(const Probe& probe) {
   double sum = 0.0, squares = 0.0;
   for (const double variance : probe.variances) sum += variance, squares += variance * variance;
-  const double chance = sum > 0.0 ? 0.25 * (1.0 - probe.image_part) * squares / (sum * sum) : 0.0;
+  const double chance = sum > 0.0 ? 0.5 * (1.0 - probe.image_part) * squares / (sum * sum) : 0.0;
   return std::sqrt(kModelDeviation * kModelDeviation + chance);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "renderer/base/hash.h"
@@ -17,6 +18,13 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Of this thread alone: what others do on the machine is not the render's price.
+double cpu_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 // The rays that it took.
@@ -53,12 +61,13 @@ int golden_stride(int count) {
 
 // One sample a cell, all over the image, until all are traced or the time is over.
 void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 100.0;
+  constexpr double kEnoughMs = 20.0;
   constexpr int kAtLeast = 8;
   const ViewPlan cells = in_cells(plan);
   const EyeMedia eye_media(scene, cells);
   const int width = cells.view.image.width, count = width * cells.view.image.height, stride = golden_stride(count);
   const auto start = Clock::now();
+  const double cpu_start = cpu_ms();
   int64_t rays = 0, place = 0;
   int asked = 0;
   for (; asked < count && (asked < kAtLeast || ms_since(start) < kEnoughMs);
@@ -67,94 +76,78 @@ void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) 
     rays += trace(scene, cells, eye_media, {x, y, x + 1, y + 1});
   }
   probe.rays_per_sample = static_cast<double>(rays) / asked;
-  probe.ms_per_ray = ms_since(start) / static_cast<double>(rays);
+  probe.ms_per_ray = (cpu_ms() - cpu_start) / static_cast<double>(rays);
 }
 
-// Rays of neighbouring pixels go the same ways, so the price of a ray is asked of whole blocks of pixels, spread over
-// the image, and with warm caches: a render comes back to a tile sample after sample.
-double ask_blocks(const CompiledScene& scene, const ViewPlan& plan) {
-  constexpr int kColumns = 4, kRows = 3, kBlockPx = 16;
-  const ImageSpec& image = plan.view.image;
-  const EyeMedia eye_media(scene, plan);
-  double ms = 0.0;
-  int64_t rays = 0;
-  for (int i = 0; i < kColumns * kRows; ++i) {
-    const int x = image.width * (2 * (i % kColumns) + 1) / (2 * kColumns);
-    const int y = image.height * (2 * (i / kColumns) + 1) / (2 * kRows);
-    const TileRect block{x, y, std::min(x + kBlockPx, image.width), std::min(y + kBlockPx, image.height)};
-    trace(scene, plan, eye_media, block);
-    const auto start = Clock::now();
-    rays += trace(scene, plan, eye_media, block);
-    ms += ms_since(start);
-  }
-  return ms / static_cast<double>(rays);
+// Of `places` along an axis, one at random in this part of `parts`.
+int place_in(int part, int parts, int places, uint64_t bits) {
+  const int64_t first = int64_t{part} * places / parts, end = int64_t{part + 1} * places / parts;
+  return static_cast<int>(first + static_cast<int64_t>(bits % static_cast<uint64_t>(end - first)));
 }
 
-// Whole cells, each at a random place of its own part of the image, side by side on a film of their own: the view is
-// shifted so that the film's cell sees what the image's would.
-void ask_errors(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 20.0, kCellMs = 4.0;
-  constexpr int kAtLeast = 4, kMostCells = 256;
+// Small patches, each at a random place of its own part of the image. On a film of their own they stand side by side, a
+// cell for each: the view is shifted so that a patch sees what it would see in the image. All samples of a patch go as
+// one packet, so that they cost what they will cost in the render.
+void ask_patches(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
+  constexpr double kEnoughMs = 25.0, kPatchMs = 3.0;
+  constexpr int kEdgePx = 2, kAtLeast = 8, kMostPatches = 512;
   const ImageSpec& image = plan.view.image;
-  const int cell_width = std::min(kCellPx, image.width), cell_height = std::min(kCellPx, image.height);
-  const double samples_a_cell = static_cast<double>(kProbeSamples) * cell_width * cell_height;
-  if (samples_a_cell * probe.rays_per_sample * probe.ms_per_ray > kCellMs) return;
+  const int width = std::min(kEdgePx, image.width), height = std::min(kEdgePx, image.height);
+  const double samples = static_cast<double>(kProbeSamples) * width * height;
+  if (samples * probe.rays_per_sample * probe.ms_per_ray > kPatchMs) return;
 
-  const int places_x = image.width / cell_width, places_y = image.height / cell_height;
+  const int places_x = image.width / width, places_y = image.height / height;
   const double aspect = static_cast<double>(places_x) / places_y;
   const int columns =
-      std::clamp(static_cast<int>(std::lround(std::sqrt(kMostCells * aspect))), 1, std::min(places_x, kMostCells));
-  const int rows = std::clamp(kMostCells / columns, 1, places_y);
+      std::clamp(static_cast<int>(std::lround(std::sqrt(kMostPatches * aspect))), 1, std::min(places_x, kMostPatches));
+  const int rows = std::clamp(kMostPatches / columns, 1, places_y);
   const int count = columns * rows, stride = golden_stride(count);
 
   ViewPlan shifted = plan;
   const EyeMedia eye_media(scene, plan);
-  Film film(count * cell_width, cell_height);
+  Film film(count * kCellPx, kCellPx);
   film.grow(kProbeSamples);
   TileView view = film.view();
   std::vector<int64_t> rays;
   const auto start = Clock::now();
+  const double cpu_start = cpu_ms();
   for (int i = 0, part = 0; i < count && (i < kAtLeast || ms_since(start) < kEnoughMs);
        ++i, part = (part + stride) % count) {
     const uint64_t random = mix64(static_cast<uint64_t>(part));
-    // Of `places` along an axis, one in this part of `parts`.
-    const auto place = [](int index, int parts, int places, uint64_t bits) {
-      const int64_t first = int64_t{index} * places / parts, end = int64_t{index + 1} * places / parts;
-      return static_cast<int>(first + static_cast<int64_t>(bits % static_cast<uint64_t>(end - first)));
-    };
-    const int x = cell_width * place(part % columns, columns, places_x, random & 0xffff);
-    const int y = cell_height * place(part / columns, rows, places_y, random >> 32 & 0xffff);
-    shifted.eye.corner = plan.eye.corner + static_cast<double>(x - i * cell_width) * plan.eye.step_x +
-                         static_cast<double>(y) * plan.eye.step_y;
-    rays.push_back(
-        trace(scene, shifted, eye_media, {i * cell_width, 0, (i + 1) * cell_width, cell_height}, &view, kProbeSamples));
+    const int x = width * place_in(part % columns, columns, places_x, random & 0xffff);
+    const int y = height * place_in(part / columns, rows, places_y, random >> 32 & 0xffff);
+    const int there = i * kCellPx;
+    shifted.eye.corner =
+        plan.eye.corner + static_cast<double>(x - there) * plan.eye.step_x + static_cast<double>(y) * plan.eye.step_y;
+    rays.push_back(trace(scene, shifted, eye_media, {there, 0, there + width, height}, &view, kProbeSamples));
   }
   const int asked = static_cast<int>(rays.size());
-  const double mean_rays = std::accumulate(rays.begin(), rays.end(), 0.0) / asked;
-  for (const int64_t r : rays) probe.costs.push_back(static_cast<double>(r) / mean_rays);
-  probe.image_part = std::min(1.0, static_cast<double>(asked) / (static_cast<double>(places_x) * places_y));
+  const double all_rays = std::accumulate(rays.begin(), rays.end(), 0.0);
+  probe.ms_per_ray = (cpu_ms() - cpu_start) / all_rays;
+  if (asked == count) probe.rays_per_sample = all_rays / (asked * samples);
+  for (const int64_t r : rays) probe.costs.push_back(static_cast<double>(r) * asked / all_rays);
+  probe.image_part = static_cast<double>(asked) / (static_cast<double>(places_x) * places_y);
 
-  std::fill(film.samples().begin(), film.samples().end(), kProbeSamples);  // those not asked differ in nothing
+  // What no patch covers is black in every sample, and differs in nothing.
+  std::fill(film.samples().begin(), film.samples().end(), kProbeSamples);
   ErrorMap map(film.width(), film.height(), image.exposure);
   Image means{film.width(), film.height(), std::vector<float>(static_cast<size_t>(film.width()) * film.height() * 3)};
-  const TileRect seen{0, 0, asked * cell_width, cell_height};
-  film.resolve(seen, means);
-  map.measure(film, means, seen);
+  const TileRect all{0, 0, film.width(), film.height()};
+  film.resolve(all, means);
+  map.measure(film, means, all);
   map.pool(film);
   probe.decay = map.decay();
   probe.variances = map.own_cell_variances();
   probe.variances.resize(static_cast<size_t>(asked));
-  for (double& variance : probe.variances) variance /= cell_width * cell_height;
+  for (double& variance : probe.variances) variance /= width * height;
 }
 
 }  // namespace
 
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan) {
-  constexpr double kManyRays = 50.0;  // a sample's; then they are scattered and many enough to tell their own price
   Probe probe;
   ask_pixels(scene, plan, probe);
-  if (probe.rays_per_sample < kManyRays) probe.ms_per_ray = ask_blocks(scene, plan);
-  ask_errors(scene, plan, probe);
+  ask_patches(scene, plan, probe);
   return probe;
 }
 

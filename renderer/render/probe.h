@@ -12,15 +12,15 @@ namespace tilelight {
 
 struct Probe {
   double rays_per_sample = 0.0, ms_per_ray = 0.0;  // on one thread
-  // By cell of the film, spread over the image, with kProbeSamples samples a pixel; none where a sample is too dear.
+  // By patch, small ones all over the image with kProbeSamples samples a pixel; none where a sample is too dear.
   std::vector<double> variances;  // mean over its pixels: of displayed - true, after so many samples
-  std::vector<double> costs;      // rays of a sample over the mean of all cells
+  std::vector<double> costs;      // rays of a sample over the mean of all patches
   double decay = 1.0;             // of a variance, when samples are doubled
-  double image_part = 0.0;        // of the image's cells that were probed
+  double image_part = 0.0;        // of the image that the patches cover
 };
 inline constexpr uint32_t kProbeSamples = 8;
 
-// On the calling thread: most take some 30 ms, and a scene whose samples are very dear no more than 0.1 s and eight.
+// On the calling thread: most take some 30 ms, and a scene whose samples are very dear eight of them at least.
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan);
 
 }  // namespace tilelight

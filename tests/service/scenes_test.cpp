@@ -88,7 +88,12 @@ TEST_F(Scenes, APlanSaysWhatAViewNeedsWithoutRendering) {
   const Json document = Json::parse(answer.body);
   EXPECT_EQ(document.at("plan").at("bodies"), 2);
   EXPECT_GT(document.at("predicted").at("mrays"), 0.0);
-  EXPECT_GT(document.at("predicted").at("elapsed_ms"), 0.0);
+  const Json& predicted = document.at("predicted");
+  EXPECT_GT(predicted.at("elapsed_ms"), 0.0);
+  EXPECT_LE(predicted.at("elapsed_ci95_ms").at(0), predicted.at("elapsed_ms"));
+  EXPECT_GE(predicted.at("elapsed_ci95_ms").at(1), predicted.at("elapsed_ms"));
+  EXPECT_GT(predicted.at("rmse"), 0.0);
+  EXPECT_LT(predicted.at("rmse_ci95").at(0), predicted.at("rmse_ci95").at(1));
   EXPECT_EQ(document.at("camera").at("type"), "perspective");
   EXPECT_EQ(document.at("camera").at("position").size(), 3);
   EXPECT_EQ(document.at("scene").get<std::string>().size(), 64);

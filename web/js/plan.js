@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan panel: what the scene uses, what was left out and why, and its size in the server.
 import { el } from './dom.js';
-import { duration } from './numbers.js';
+import { duration, errorText } from './numbers.js';
 
 const kCount = new Intl.NumberFormat('en');
 const kTimingNames = { parse: 'Reading', queue: 'Waiting', compile: 'Compiling', render: 'Rendering', encode: 'Encoding' };
@@ -28,10 +28,11 @@ export function showTimings(container, timings) {
   place.querySelector('.spent').replaceChildren(...rows(spent));
 }
 
-// What it should have taken with the machine to itself: {elapsed_ms, mrays}.
-export function showPrediction(container, { elapsed_ms: ms, mrays }) {
+// What it should take with the machine to itself, and how good it will be: {elapsed_ms, mrays, rmse or null}.
+export function showPrediction(container, { elapsed_ms: ms, mrays, rmse }) {
   const rays = mrays < 1 ? 'under a million rays' : `${kCount.format(Math.round(mrays))} million rays`;
-  container.querySelector('.predicted').replaceChildren(...rows([['Predicted', `${duration(ms)}, ${rays}`]]));
+  const error = Number.isFinite(rmse) ? `, error ${errorText(rmse)}` : '';
+  container.querySelector('.predicted').replaceChildren(...rows([['Predicted', `${duration(ms)}, ${rays}${error}`]]));
 }
 
 function block(title, ...content) {
