@@ -31,6 +31,8 @@ struct Config {
   int64_t scene_cache_mb = 1024;  // compiled scenes kept for reuse
   int64_t results_mb = 512;       // finished images kept
   int max_results = 1000;
+  int64_t films_mb = 1024;  // films of done renders kept to be refined: one of 3840x2160, nine of 1280x720
+  int film_keep_s = 300;    // for so long
   std::string log_level = "info";
   LogFormat log_format = LogFormat::automatic;
   Limits limits;

@@ -29,6 +29,9 @@ enum class RenderState { running, done, cancelled, failed };
 struct RayCounts {
   int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;
   int64_t total() const { return primary + shadow + reflected + refracted; }
+  RayCounts operator-(const RayCounts& o) const {
+    return {primary - o.primary, shadow - o.shadow, reflected - o.reflected, refracted - o.refracted};
+  }
 };
 
 // One point of the report: after a whole pass. Times in milliseconds since the start, with those of the render that was

@@ -55,6 +55,7 @@ Json brief_json(const JobRecord& record) {
               {"state", job_state_name(status.state)},
               {"revision", status.revision},
               {"scene", record.scene_id},
+              {"refines", record.refines.empty() ? Json(nullptr) : Json(record.refines)},
               {"priority", priority_name(record.priority)},
               {"format", image_format_name(record.format)},
               {"created_at", time_or_null(status.created_ms)},
@@ -146,10 +147,9 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
 
 std::string limits_document(const Config& config) {
   Json out = Json::parse(limits_json(config.limits));
-  out["server"] = {{"max_queue", config.max_queue},
-                   {"max_sessions", config.max_sessions},
-                   {"max_results", config.max_results},
-                   {"max_wait_s", 60}};
+  out["server"] = {{"max_queue", config.max_queue},     {"max_sessions", config.max_sessions},
+                   {"max_results", config.max_results}, {"films_mb", config.films_mb},
+                   {"film_keep_s", config.film_keep_s}, {"max_wait_s", 60}};
   return text_of(out);
 }
 

@@ -9,6 +9,7 @@ namespace tilelight::server {
 
 // handlers_renders.cpp
 Reply post_render(Services&, const Request&);
+Reply post_refine(Services&, const Request&);
 Reply list_renders(Services&, const Request&);
 Reply get_render(Services&, const Request&);
 Reply delete_render(Services&, const Request&);
