@@ -73,8 +73,9 @@ App::App(Config config, const Clock& clock)
       sessions_(pool_, clock, config_.max_sessions),
       keys_(clock),
       waits_(config_.max_waiting),
-      services_{config_, log_,   metrics_,  pool_, scenes_, *compiled_,
-                *queue_, *jobs_, sessions_, keys_, waits_,  is_stopping_} {}
+      streams_(config_.max_streams),
+      services_{config_, log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,
+                *jobs_,  sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
 
 void App::add_gauges() {
   metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",
@@ -91,6 +92,8 @@ void App::add_gauges() {
                  [this] { return static_cast<double>(compiled_->bytes()); });
   metrics_.gauge("tilelight_requests_waiting", "Requests that wait for a render, a change or a frame.",
                  [this] { return config_.max_waiting - waits_.free(); });
+  metrics_.gauge("tilelight_event_streams", "Clients that are told the events of a render.",
+                 [this] { return config_.max_streams - streams_.free(); });
   metrics_.gauge("tilelight_http_connections", "Open connections.",
                  [this] { return static_cast<double>(http_->connection_count()); });
   metrics_.gauge("tilelight_http_unread_bytes", "Memory of responses that clients have not read yet.",

@@ -40,6 +40,7 @@ struct Config {
   // Not for operators: the server's patience, which tests shorten.
   double head_timeout_ms = 10'000.0;
   double drain_ms = 2'000.0;  // for running renders to end by themselves when the server stops
+  int max_streams = 256;      // of events
   int max_waiting = 160;      // requests that wait for a render, a change or a frame
 };
 

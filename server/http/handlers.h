@@ -16,6 +16,9 @@ Reply delete_render(Services&, const Request&);
 Reply get_render_report(Services&, const Request&);
 Reply get_render_pixel(Services&, const Request&);
 
+// handlers_events.cpp
+Reply get_render_events(Services&, const Request&);
+
 // handlers_images.cpp
 Reply get_render_image(Services&, const Request&);
 Reply get_scene_image(Services&, const Request&);

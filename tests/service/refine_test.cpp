@@ -143,7 +143,8 @@ TEST_F(Refine, AFilmIsKeptForSomeMinutes) {
   const Json source = render(ball(R"("samples": 2)")), other = render(ball(R"("samples": 3)"));
   const double keep_ms =
       1000.0 * Json::parse(service_.get("/v1/limits").body).at("server").at("film_keep_s").get<int>();
-  EXPECT_GT(service_.metric("tilelight_films_bytes"), 2 * 64 * 48 * 12.0);
+  // Bytes a pixel: its samples, and 27 of image and error.
+  EXPECT_TRUE(service_.metric_reaches("tilelight_films_bytes", 64 * 48 * (2 * 12 + 3 * 12 + 2 * 27)));
   service_.clock().advance_ms(keep_ms - 1.0);
   const Json refined = refine(source, R"({"samples": 4})");
   service_.clock().advance_ms(1.0);
