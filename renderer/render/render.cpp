@@ -359,7 +359,7 @@ class TileRender final : public Render, public WorkSource {
     open_step(Stage::copy, 0);
   }
 
-  // REQUIRES: mutex_, or a render that nobody else knows. True while it renders the passes of the one before once more.
+  // REQUIRES: mutex_. True while it renders the passes of the one before once more.
   bool is_repeating() const { return standing_.passes < static_cast<int>(before_.passes.size()); }
 
   // REQUIRES: mutex_. Since it began to add to what was there.

@@ -194,6 +194,7 @@ void JobQueue::end(const WorkPtr& work, JobState state, std::string error) {
   const WorkStatus status = work->status();
   metrics_.add("tilelight_renders_total", "state=\"" + std::string(job_state_name(state)) + "\"");
   if (!status.report.points.empty()) {
+    // The report goes on from the source's, whose rays were counted when it ended.
     RayCounts rays = status.report.points.back().rays;
     if (const auto& source = work->request().refines) rays = rays - source->report.points.back().rays;
     metrics_.add("tilelight_rays_total", "kind=\"primary\"", static_cast<double>(rays.primary));
