@@ -68,18 +68,18 @@ class Refine : public ::testing::Test {
 };
 
 TEST_F(Refine, SamplesThatAreAddedGiveTheBytesOfTheWhole) {
-  const auto whole = render(samples(64));
-  for (const int first : {1, 7, 8, 32, 48}) {
+  const auto whole = render(samples(16));
+  for (const int first : {1, 3, 8, 12}) {
     const auto source = render(samples(first));
-    const auto refined = render(samples(64), from(*source));
+    const auto refined = render(samples(16), from(*source));
     EXPECT_EQ(refined->image()->rgb, whole->image()->rgb) << first;
-    EXPECT_EQ(refined->progress().spp, 64);
+    EXPECT_EQ(refined->progress().spp, 16);
     const RenderReport report = refined->report(), before = source->report();
     ASSERT_GT(report.points.size(), before.points.size());
     for (size_t i = 0; i < before.points.size(); ++i)
       EXPECT_EQ(report.points[i].elapsed_ms, before.points[i].elapsed_ms);
     // Rays are counted on, and time goes on.
-    const ReportPoint &last = report.points.back(), &all = whole->report().points.back();
+    const ReportPoint last = report.points.back(), all = whole->report().points.back();
     EXPECT_EQ(last.rays.total(), all.rays.total()) << first;
     EXPECT_EQ(last.truncation_bound, all.truncation_bound);
     EXPECT_GT(last.elapsed_ms, before.points.back().elapsed_ms);
@@ -88,7 +88,7 @@ TEST_F(Refine, SamplesThatAreAddedGiveTheBytesOfTheWhole) {
 }
 
 TEST_F(Refine, TheErrorToldIsThatOfTheWhole) {
-  const auto whole = render(samples(64)), refined = render(samples(64), from(*render(samples(16))));
+  const auto whole = render(samples(16)), refined = render(samples(16), from(*render(samples(8))));
   const ErrorSummary a = whole->report().points.back().error, b = refined->report().points.back().error;
   EXPECT_EQ(a.rmse, b.rmse);
   EXPECT_EQ(a.high, b.high);
@@ -102,7 +102,7 @@ TEST_F(Refine, SamplesThatFollowTheErrorReplayFromTheReport) {
   const auto once = render(samples(30, true), from(*source));
   const auto twice = render(
       [](RenderSpec& spec) {
-        spec.rmse = 0.02;
+        spec.rmse = 0.03;
         spec.samples = 4096;
         spec.adaptive = true;
       },
@@ -112,19 +112,19 @@ TEST_F(Refine, SamplesThatFollowTheErrorReplayFromTheReport) {
   EXPECT_EQ(again->image()->rgb, twice->image()->rgb);
   EXPECT_EQ(again->report().points.back().rays.total(), twice->report().points.back().rays.total());
   EXPECT_EQ(twice->report().stop, "rmse");
-  EXPECT_LE(twice->report().points.back().error.high, 0.02);
+  EXPECT_LE(twice->report().points.back().error.high, 0.03);
 }
 
 TEST_F(Refine, ManyGoOnFromOneFilmAtOnceAndLeaveItAsItWas) {
   const auto source = render(samples(8));
   const auto cancelled = start(samples(1'000'000), from(*source));
-  const auto a = start(samples(32), from(*source)), b = start(samples(64), from(*source));
+  const auto a = start(samples(12), from(*source)), b = start(samples(16), from(*source));
   cancelled->cancel();
   for (const auto& each : {a, b, cancelled}) EXPECT_TRUE(each->wait_ms(60'000));
   EXPECT_EQ(cancelled->exposed_film(), nullptr);
-  EXPECT_EQ(a->image()->rgb, render(samples(32))->image()->rgb);
-  EXPECT_EQ(b->image()->rgb, render(samples(64))->image()->rgb);
-  EXPECT_EQ(render(samples(16), from(*source))->image()->rgb, render(samples(16))->image()->rgb);
+  EXPECT_EQ(a->image()->rgb, render(samples(12))->image()->rgb);
+  EXPECT_EQ(b->image()->rgb, render(samples(16))->image()->rgb);
+  EXPECT_EQ(render(samples(10), from(*source))->image()->rgb, render(samples(10))->image()->rgb);
 }
 
 TEST_F(Refine, WithoutTheFilmThePassesAreRenderedOnceMore) {
