@@ -180,7 +180,7 @@ TEST_F(Refine, WithoutABudgetForFilmsNothingIsRefined) {
 }
 
 TEST_F(Refine, ManyAtOnceLeaveTheSourceAsItWas) {
-  const Json source = render(ball(R"("samples": 2)", 256, 192));
+  const Json source = render(ball(R"("samples": 2)", 128, 96));
   const server::Metrics& metrics = service_.app().metrics();
   const HttpAnswer endless = ask_refine(source, R"({"samples": 4096})"),
                    joined = ask_refine(source, R"({"samples": 4096})");
@@ -188,12 +188,12 @@ TEST_F(Refine, ManyAtOnceLeaveTheSourceAsItWas) {
   EXPECT_EQ(metrics.value("tilelight_renders_shared_total", ""), 1) << "the same of the same is one work";
   const HttpAnswer a = ask_refine(source, R"({"samples": 4, "priority": "normal"})"),
                    b = ask_refine(source, R"({"samples": 8, "priority": "normal"})");
-  EXPECT_EQ(image(done(a)).body, image(render(ball(R"("samples": 4)", 256, 192))).body);
-  EXPECT_EQ(image(done(b)).body, image(render(ball(R"("samples": 8)", 256, 192))).body);
+  EXPECT_EQ(image(done(a)).body, image(render(ball(R"("samples": 4)", 128, 96))).body);
+  EXPECT_EQ(image(done(b)).body, image(render(ball(R"("samples": 8)", 128, 96))).body);
   for (const HttpAnswer& each : {endless, joined})
     EXPECT_EQ(ask(service_.port(), "DELETE", each.header("location")).status, 204);
   EXPECT_TRUE(service_.metric_reaches("tilelight_renders_total{state=\"cancelled\"}", 1));
-  EXPECT_EQ(image(refine(source, R"({"samples": 6})")).body, image(render(ball(R"("samples": 6)", 256, 192))).body);
+  EXPECT_EQ(image(refine(source, R"({"samples": 6})")).body, image(render(ball(R"("samples": 6)", 128, 96))).body);
 }
 
 TEST_F(Refine, TheSourceMayGoWhileItIsRefined) {
