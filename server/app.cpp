@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kAnswerMs = 1'000.0;  // for the last answers to reach their clients
 constexpr int kFreeWorkers = 32;       // that never wait for a render, so that other requests are always answered
+constexpr int64_t kFilmBytes = int64_t{3} << 30;  // of running renders and of those that can be refined
 constexpr int64_t kSceneStoreBytes = int64_t{256} << 20;
 
 bool log_as_json(LogFormat format) {
@@ -23,6 +24,14 @@ FrontOptions front_options(const Config& config) {
   options.workers = config.max_waiting + kFreeWorkers;
   options.limits.body_bytes = config.limits.bytes;
   options.head_timeout_ms = config.head_timeout_ms;
+  return options;
+}
+
+JobQueue::Options queue_options(const Config& config) {
+  JobQueue::Options options;
+  options.max_queue = config.max_queue;
+  // What is kept is not there for what runs; a render that is larger than the rest has its lane for itself.
+  options.max_film_bytes = std::max(kFilmBytes / 4, kFilmBytes - (config.films_mb << 20));
   return options;
 }
 
@@ -57,14 +66,16 @@ App::App(Config config, const Clock& clock)
       pool_(config_.threads),
       scenes_(kSceneStoreBytes),
       compiled_(CompiledCache::make(pool_, metrics_, config_.scene_cache_mb << 20)),
-      queue_(JobQueue::make(pool_, compiled_, metrics_, log_, clock, {config_.max_queue})),
-      jobs_(Jobs::make(std::make_unique<MemoryJobStore>(size_t{kMaxJobRecords}),
-                       {config_.max_results, config_.results_mb << 20})),
+      queue_(JobQueue::make(pool_, compiled_, metrics_, log_, clock, queue_options(config_))),
+      jobs_(Jobs::make(
+          std::make_unique<MemoryJobStore>(size_t{kMaxJobRecords}), clock,
+          {config_.max_results, config_.results_mb << 20, {config_.films_mb << 20, config_.film_keep_s * 1000.0}})),
       sessions_(pool_, clock, config_.max_sessions),
       keys_(clock),
       waits_(config_.max_waiting),
-      services_{config_, log_,   metrics_,  pool_, scenes_, *compiled_,
-                *queue_, *jobs_, sessions_, keys_, waits_,  is_stopping_} {}
+      streams_(config_.max_streams),
+      services_{config_, log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,
+                *jobs_,  sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
 
 void App::add_gauges() {
   metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",
@@ -72,6 +83,8 @@ void App::add_gauges() {
   metrics_.gauge("tilelight_renders_running", "Renders that have started.",
                  [this] { return queue_->counts().running; });
   metrics_.gauge("tilelight_jobs", "Jobs on record.", [this] { return static_cast<double>(jobs_->count()); });
+  metrics_.gauge("tilelight_films_bytes", "Memory of the films of done renders that can be refined.",
+                 [this] { return static_cast<double>(jobs_->films().bytes()); });
   metrics_.gauge("tilelight_sessions", "Interactive sessions.", [this] { return sessions_.count(); });
   metrics_.gauge("tilelight_scenes_stored", "Scenes stored by clients.",
                  [this] { return static_cast<double>(scenes_.count()); });
@@ -79,6 +92,8 @@ void App::add_gauges() {
                  [this] { return static_cast<double>(compiled_->bytes()); });
   metrics_.gauge("tilelight_requests_waiting", "Requests that wait for a render, a change or a frame.",
                  [this] { return config_.max_waiting - waits_.free(); });
+  metrics_.gauge("tilelight_event_streams", "Clients that are told the events of a render.",
+                 [this] { return config_.max_streams - streams_.free(); });
   metrics_.gauge("tilelight_http_connections", "Open connections.",
                  [this] { return static_cast<double>(http_->connection_count()); });
   metrics_.gauge("tilelight_http_unread_bytes", "Memory of responses that clients have not read yet.",
@@ -94,13 +109,15 @@ void App::start() {
   housekeeper_ = std::jthread([this](std::stop_token stop) { housekeep(stop); });
 }
 
-// Sessions are also looked through on every use; this ends them where nobody comes.
+// Sessions and films are also looked through on every use; this ends them where nobody comes.
 void App::housekeep(std::stop_token stop) {
   std::mutex mutex;
   std::condition_variable_any never;
   std::unique_lock lock(mutex);
-  while (!never.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); }))
+  while (!never.wait_for(lock, stop, std::chrono::seconds(10), [&] { return stop.stop_requested(); })) {
     sessions_.close_idle();
+    jobs_->films().drop_old();
+  }
 }
 
 void App::stop() {

@@ -47,7 +47,7 @@ class App {
   std::shared_ptr<Jobs> jobs_;
   Sessions sessions_;
   IdempotencyKeys keys_;
-  WaitSlots waits_;
+  WaitSlots waits_, streams_;
   Services services_;
   std::unique_ptr<HttpServer> http_, admin_;
   std::jthread housekeeper_;

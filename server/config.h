@@ -31,6 +31,8 @@ struct Config {
   int64_t scene_cache_mb = 1024;  // compiled scenes kept for reuse
   int64_t results_mb = 512;       // finished images kept
   int max_results = 1000;
+  int64_t films_mb = 1024;  // films of done renders kept to be refined: one of 3840x2160, nine of 1280x720
+  int film_keep_s = 300;    // for so long
   std::string log_level = "info";
   LogFormat log_format = LogFormat::automatic;
   Limits limits;
@@ -38,6 +40,7 @@ struct Config {
   // Not for operators: the server's patience, which tests shorten.
   double head_timeout_ms = 10'000.0;
   double drain_ms = 2'000.0;  // for running renders to end by themselves when the server stops
+  int max_streams = 256;      // of events
   int max_waiting = 160;      // requests that wait for a render, a change or a frame
 };
 

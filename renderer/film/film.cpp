@@ -6,6 +6,10 @@
 namespace tilelight {
 namespace {
 
+uint32_t blocks_in_use(uint32_t samples) {
+  return samples == 0 ? 0 : (samples - 1) / sample_block_length(samples - 1) + 1;
+}
+
 int tiles_across(int pixels, int tile_px) { return (pixels + tile_px - 1) / tile_px; }
 
 }  // namespace
@@ -39,11 +43,29 @@ SamplePlanes Film::planes() const {
   return out;
 }
 
+int64_t Film::bytes() const {
+  const auto grown = std::count_if(planes_.begin(), planes_.end(), [](const auto& plane) { return plane != nullptr; });
+  return grown * int64_t{width_} * height_ * 3 * static_cast<int64_t>(sizeof(float));
+}
+
+void Film::copy(const TileRect& part, const Film& from) {
+  for_each_cell(part, [&](const TileRect& cell) {
+    // Blocks whose turn has not come are zero here too, and cost no memory.
+    const uint32_t blocks = blocks_in_use(from.samples_[cell_at(cell.x0, cell.y0)]);
+    for (uint32_t block = 0; block < blocks; ++block) {
+      for (int y = cell.y0; y < cell.y1; ++y) {
+        const size_t at = (static_cast<size_t>(y) * width_ + cell.x0) * 3;
+        std::copy_n(from.planes_[block].get() + at, 3 * cell.width(), planes_[block].get() + at);
+      }
+    }
+  });
+}
+
 void Film::resolve(const TileRect& part, Image& image) const {
   const SamplePlanes from = planes();
   for_each_cell(part, [&](const TileRect& cell) {
     const uint32_t count = samples_[cell_at(cell.x0, cell.y0)];
-    const uint32_t blocks = count == 0 ? 0 : (count - 1) / sample_block_length(count - 1) + 1;
+    const uint32_t blocks = blocks_in_use(count);
     const float n = static_cast<float>(std::max(1u, count));
     for_each_pixel(cell, [&](int x, int y) {
       const size_t pixel = static_cast<size_t>(y) * width_ + x;

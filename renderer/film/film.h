@@ -102,6 +102,10 @@ class Film {
   std::vector<uint32_t>& samples() { return samples_; }
   const std::vector<uint32_t>& samples() const { return samples_; }
   SamplePlanes planes() const;  // null beyond what has grown
+  int64_t bytes() const;        // that the planes may take
+  // Takes over the samples of a part from a film of the same size; their numbers are the owner's to take over. Parts
+  // that share no cell may be done by many threads. REQUIRES: grown for them; no writer there.
+  void copy(const TileRect& part, const Film& from);
   // Writes the mean of every pixel's samples into the image, black where there are none. Parts that share no cell may
   // be done by many threads. REQUIRES: no writer there; an image of the film's size.
   void resolve(const TileRect& part, Image& image) const;

@@ -21,8 +21,9 @@ double growth(double error, double rmse, bool adaptive) {
 
 }  // namespace
 
-PassSchedule::PassSchedule(const RenderSpec& spec)
-    : replay_(spec.passes),
+PassSchedule::PassSchedule(const RenderSpec& spec, std::vector<double> before)
+    : before_(std::move(before)),
+      replay_(spec.passes),
       samples_(spec.samples.value_or(spec.passes.empty() ? 16 : std::numeric_limits<int>::max())),
       adaptive_(spec.adaptive),
       rmse_(spec.rmse.value_or(0.0)),
@@ -39,6 +40,10 @@ PassSchedule::Next PassSchedule::replay(const Standing& standing) const {
 }
 
 PassSchedule::Next PassSchedule::next(const Standing& standing) const {
+  if (standing.passes < static_cast<int>(before_.size())) {
+    const double samples = before_[static_cast<size_t>(standing.passes)];
+    return {samples, is_for_all(standing, samples), {}};
+  }
   // A pass that goes where the error is gives whole cells their samples, and leaves less than the next one takes.
   const double kLeast = std::max(1.0, standing.spp / 4.0) / 64.0;
   if (!replay_.empty() && standing.passes >= static_cast<int>(replay_.size())) return {0.0, true, "passes"};

@@ -23,7 +23,8 @@ struct Standing {
 
 class PassSchedule {
  public:
-  explicit PassSchedule(const RenderSpec& spec);
+  // before: passes that come first, whatever the rules. The rules speak of the whole.
+  explicit PassSchedule(const RenderSpec& spec, std::vector<double> before = {});
 
   struct Next {
     // A pixel's; the mean over pixels where it is not for all alike. 0: the render is over.
@@ -38,10 +39,10 @@ class PassSchedule {
   double expected_samples(const Standing& standing) const;
 
  private:
-  Next replay(const Standing& standing) const;
+  Next replay(const Standing& standing) const;  // REQUIRES: a pass of the replay is left
   bool is_for_all(const Standing& standing, double samples) const;
 
-  std::vector<double> replay_;
+  std::vector<double> before_, replay_;
   double samples_;
   bool adaptive_;
   double rmse_;     // 0 without the rule

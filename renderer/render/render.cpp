@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "renderer/base/standard_floats.h"
+#include "renderer/render/exposed_film.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/render/spend.h"
 #include "renderer/trace/isa.h"
@@ -31,28 +32,36 @@ int in_whole_cells(int tile_px) { return (tile_px + kCellPx - 1) / kCellPx * kCe
 
 // The state machine behind Render. The pool calls take() and run(); the last item of a step opens the next step. A pass
 // is steps of tracing, then one that measures what the blocks of samples say, then one that spreads it over neighbours.
-// A step of tracing gives every tile as many samples as fit kItemTargetMs, so that items stay short.
+// A step of tracing gives every tile as many samples as fit kItemTargetMs, so that items stay short. A render that goes
+// on from another's film first copies it.
 class TileRender final : public Render, public WorkSource {
  public:
   TileRender(TilePool& pool, std::shared_ptr<const CompiledScene> scene, ViewPlan plan, RenderOptions options)
       : pool_(pool),
         scene_(std::move(scene)),
         plan_(std::move(plan)),
-        options_(std::move(options)),
-        tile_px_(in_whole_cells(options_.tile_px > 0 ? options_.tile_px : kTilePx)),
+        on_pass_(std::move(options.on_pass)),
+        tile_px_(in_whole_cells(options.tile_px > 0 ? options.tile_px : kTilePx)),
         width_(plan_.view.image.width),
         height_(plan_.view.image.height),
         tiles_(tile_count(width_, height_, tile_px_)),
         kernel_(kernel_of(plan_.variant)),
         eye_media_(*scene_, plan_),
-        schedule_(plan_.view.render),
-        film_(width_, height_),
-        error_map_(width_, height_, plan_.view.image.exposure) {
+        before_(options.continues ? std::move(options.continues->report) : RenderReport()),
+        schedule_(plan_.view.render, before_.passes),
+        source_(options.continues ? std::move(options.continues->film) : nullptr),
+        exposed_(std::make_shared<ExposedFilm>(width_, height_, plan_.view.image.exposure)) {
+    report_.points = before_.points;
+    report_.passes = before_.passes;
     report_.threads = pool.thread_count();
     // Kernels of local light alone do not look at what surfaces would pass on.
     if (plan_.view.render.max_depth == 0) untraced_weight_ = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
-    open_pass(schedule_.next(standing_));
+    if (source_) {
+      open_copy();
+    } else {
+      open_pass(schedule_.next(standing_));
+    }
   }
 
   Next take() override {
@@ -106,8 +115,10 @@ class TileRender final : public Render, public WorkSource {
     }
     const double steps = step_first_ + static_cast<double>(step_samples_) * tiles_done_ / tiles_;
     const double in_pass = stage_ == Stage::trace ? steps / pass_length_ : 1.0;
-    p.fraction = (standing_.spp + pass_samples_ * in_pass) / std::max(1.0, schedule_.expected_samples(standing_));
-    if (const auto& time_ms = plan_.view.render.time_ms) p.fraction = std::max(p.fraction, p.elapsed_ms / *time_ms);
+    const double expected = std::max(1.0, schedule_.expected_samples(standing_)) - first_spp_;
+    p.fraction = (standing_.spp + pass_samples_ * in_pass - first_spp_) / std::max(1e-9, expected);
+    const auto& time_ms = plan_.view.render.time_ms;
+    if (time_ms && !is_repeating()) p.fraction = std::max(p.fraction, counted_ms() / *time_ms);
     p.fraction = std::min(1.0, p.fraction);
     if (p.fraction > 0.0) p.eta_ms = p.elapsed_ms * (1.0 - p.fraction) / p.fraction;
     return p;
@@ -120,12 +131,17 @@ class TileRender final : public Render, public WorkSource {
 
   std::shared_ptr<const Image> image() const override {
     const std::lock_guard lock(mutex_);
-    return image_;
+    return exposed_->image;
   }
 
   std::shared_ptr<const std::vector<float>> error_bounds() const override {
     const std::lock_guard lock(mutex_);
-    return error_bounds_;
+    return exposed_->error_bounds;
+  }
+
+  std::shared_ptr<const ExposedFilm> exposed_film() const override {
+    const std::lock_guard lock(mutex_);
+    return state_ == RenderState::done && !over_time_ ? exposed_ : nullptr;
   }
 
   bool wait_ms(double ms) const override {
@@ -140,11 +156,14 @@ class TileRender final : public Render, public WorkSource {
   }
 
  private:
-  enum class Stage { trace, measure, spread };
+  enum class Stage { copy, trace, measure, spread };
 
   // What is read here is constant while items of the step run.
   void work_on(const TileRect& tile, TileCounts& counts) {
     switch (stage_) {
+      case Stage::copy:
+        film_.copy(tile, source_->film);
+        break;
       case Stage::trace:
         trace(tile, counts);
         break;
@@ -215,7 +234,7 @@ class TileRender final : public Render, public WorkSource {
   void drop_overrun_pass() {
     const auto& time_ms = plan_.view.render.time_ms;
     if (!time_ms || standing_.passes == 0 || stage_ != Stage::trace || state_ != RenderState::running) return;
-    if (ms_between(start_, Clock::now()) <= *time_ms || tiles_done_ == tiles_) return;
+    if (is_repeating() || counted_ms() <= *time_ms || tiles_done_ == tiles_) return;
     over_time_ = true;
     cancelled_.store(true, std::memory_order_relaxed);
   }
@@ -235,6 +254,10 @@ class TileRender final : public Render, public WorkSource {
   // work over the whole image needs no lock.
   Then finish_step() {
     switch (stage_) {
+      case Stage::copy:
+        film_.samples() = source_->film.samples();
+        source_ = nullptr;
+        return go_on();
       case Stage::trace: {
         if (step_first_ + step_samples_ < pass_length_) break;
         film_.samples() = targets_;
@@ -272,21 +295,34 @@ class TileRender final : public Render, public WorkSource {
     const ErrorSummary error = error_map_.summary();
     auto error_bounds = std::make_shared<const std::vector<float>>(error_map_.bounds());
     const double spp = samples_a_pixel();
-    PassSchedule::Next next;
     {
       const std::lock_guard lock(mutex_);
-      const auto now = Clock::now();
-      const double elapsed = ms_between(start_, now);
+      const double elapsed = counted_ms();
       standing_ = {.passes = standing_.passes + 1,
                    .spp = spp,
                    .elapsed_ms = elapsed,
                    .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp),
                    .was_for_all = is_for_all_};
       if (error.is_known) standing_.rmse = error.high;
-      image_ = std::move(next_image_);
-      error_bounds_ = std::move(error_bounds);
-      report_.passes.push_back(pass_samples_);
-      add_report_point(error);
+      exposed_->image = std::move(next_image_);
+      exposed_->error_bounds = std::move(error_bounds);
+      if (standing_.passes > static_cast<int>(before_.passes.size())) {
+        report_.passes.push_back(pass_samples_);
+        add_report_point(error);
+      } else if (!is_repeating()) {  // from here on it adds
+        counted_from_ = Clock::now();
+        standing_.elapsed_ms = 0.0;
+        tally_.cpu_ms = before_.points.back().cpu_ms;
+      }
+    }
+    return go_on();
+  }
+
+  // The next pass, or the end.
+  Then go_on() {
+    PassSchedule::Next next;
+    {
+      const std::lock_guard lock(mutex_);
       next = schedule_.next(standing_);
       if (next.samples == 0.0) end(RenderState::done, next.stop);
     }
@@ -310,6 +346,26 @@ class TileRender final : public Render, public WorkSource {
     });
     return static_cast<double>(sum) / (static_cast<double>(width_) * height_);
   }
+
+  void open_copy() {
+    for (size_t block = 0; block < kSampleBlocks && source_->film.planes()[block]; ++block)
+      film_.grow(static_cast<uint32_t>(block) + 1);
+    error_map_ = source_->error_map;
+    exposed_->image = source_->image;
+    exposed_->error_bounds = source_->error_bounds;
+    tally_ = source_->tally;
+    standing_ = source_->standing;
+    standing_.elapsed_ms = 0.0;
+    first_spp_ = standing_.spp;
+    const std::lock_guard lock(mutex_);
+    open_step(Stage::copy, 0);
+  }
+
+  // REQUIRES: mutex_. True while it renders the passes of the one before once more.
+  bool is_repeating() const { return standing_.passes < static_cast<int>(before_.passes.size()); }
+
+  // REQUIRES: mutex_. Since it began to add to what was there.
+  double counted_ms() const { return ms_between(counted_from_, Clock::now()); }
 
   void open_pass(const PassSchedule::Next& next) {
     if (next.for_all) {
@@ -351,14 +407,14 @@ class TileRender final : public Render, public WorkSource {
   }
 
   void add(const TileCounts& counts, double item_ms) {
-    rays_.primary += counts.primary;
-    rays_.shadow += counts.shadow;
-    rays_.reflected += counts.reflected;
-    rays_.refracted += counts.refracted;
-    nonfinite_ += counts.nonfinite;
-    lights_on_hits_ += counts.lights_on_hits;
-    untraced_weight_ = std::max(untraced_weight_, counts.untraced_weight);
-    cpu_ms_ += item_ms;
+    tally_.rays.primary += counts.primary;
+    tally_.rays.shadow += counts.shadow;
+    tally_.rays.reflected += counts.reflected;
+    tally_.rays.refracted += counts.refracted;
+    tally_.nonfinite += counts.nonfinite;
+    tally_.lights_on_hits += counts.lights_on_hits;
+    tally_.untraced_weight = std::max(tally_.untraced_weight, counts.untraced_weight);
+    tally_.cpu_ms += item_ms;
   }
 
   // REQUIRES: mutex_.
@@ -366,40 +422,43 @@ class TileRender final : public Render, public WorkSource {
     ReportPoint point;
     point.pass = standing_.passes;
     point.spp = standing_.spp;
-    point.elapsed_ms = standing_.elapsed_ms;
-    point.cpu_ms = cpu_ms_;
-    point.rays = rays_;
+    point.elapsed_ms = standing_.elapsed_ms + (before_.points.empty() ? 0.0 : before_.points.back().elapsed_ms);
+    point.cpu_ms = tally_.cpu_ms;
+    point.rays = tally_.rays;
     point.error = error;
-    point.nonfinite = nonfinite_;
-    point.lights_on_hits = lights_on_hits_;
-    if (untraced_weight_ == 0.0) {
+    point.nonfinite = tally_.nonfinite;
+    point.lights_on_hits = tally_.lights_on_hits;
+    if (tally_.untraced_weight == 0.0) {
       point.truncation_bound = 0.0;
     } else if (scene_->radiance_bound >= 0.0) {
       constexpr double kRounding = 1.0 + 0x1p-36;  // more than the products and sums behind both have lost
-      point.truncation_bound = untraced_weight_ * scene_->radiance_bound * kRounding;
+      point.truncation_bound = tally_.untraced_weight * scene_->radiance_bound * kRounding;
     }
     report_.points.push_back(point);
   }
 
   void announce() const {
-    if (options_.on_pass) options_.on_pass();
+    if (on_pass_) on_pass_();
   }
 
   // Constant after construction.
   TilePool& pool_;
   const std::shared_ptr<const CompiledScene> scene_;
   const ViewPlan plan_;
-  const RenderOptions options_;
+  const std::function<void()> on_pass_;
   const int tile_px_, width_, height_, tiles_;
   const Kernel kernel_;
   const EyeMedia eye_media_;
+  const RenderReport before_;  // of the render that is continued; empty without one
   const PassSchedule schedule_;
   const Clock::time_point start_ = Clock::now();
 
   std::atomic<bool> cancelled_{false};
   // Items write disjoint tiles; between steps the last item's thread has them for itself.
-  Film film_;
-  ErrorMap error_map_;
+  std::shared_ptr<const ExposedFilm> source_;  // until it is copied
+  const std::shared_ptr<ExposedFilm> exposed_;
+  Film& film_ = exposed_->film;
+  ErrorMap& error_map_ = exposed_->error_map;
   std::shared_ptr<Image> next_image_;  // of the pass in work
   std::vector<uint32_t> targets_;      // by cell: its samples after the pass in work
 
@@ -410,7 +469,10 @@ class TileRender final : public Render, public WorkSource {
   std::string error_;
   bool over_time_ = false;
   Clock::time_point end_, step_start_;
-  Standing standing_;
+  Clock::time_point counted_from_ = start_;
+  Standing& standing_ = exposed_->standing;
+  Tally& tally_ = exposed_->tally;
+  double first_spp_ = 0.0;  // what its film had at the start
   double pass_samples_ = 0.0;
   bool is_for_all_ = true;
   uint32_t pass_length_ = 1;  // samples of the cell that takes most
@@ -418,12 +480,7 @@ class TileRender final : public Render, public WorkSource {
   uint32_t step_first_ = 0, step_samples_ = 1;  // of each cell's samples in the pass
   int next_tile_ = 0, tiles_done_ = 0, in_flight_ = 0;
   double item_ms_per_sample_ = 0.0;
-  double cpu_ms_ = 0.0, untraced_weight_ = 0.0;
-  RayCounts rays_;
-  int64_t nonfinite_ = 0, lights_on_hits_ = 0;
   RenderReport report_;
-  std::shared_ptr<const Image> image_;
-  std::shared_ptr<const std::vector<float>> error_bounds_;
 };
 
 }  // namespace
@@ -434,6 +491,20 @@ int64_t render_memory_bytes(const View& view) {
       std::min<int64_t>(kSampleBlocks, view.render.samples.value_or(kSampleBlocks)) * kColorBytes + 2 * kColorBytes +
       ErrorMap::kPixelBytes;
   return int64_t{width} * height * pixel_bytes;
+}
+
+int64_t memory_bytes(const ExposedFilm& exposed) {
+  const Film& film = exposed.film;
+  return film.bytes() + int64_t{film.width()} * film.height() * (ErrorMap::kPixelBytes + kColorBytes);
+}
+
+std::string rule_met(const RenderSpec& spec, const RenderReport& report) {
+  if (report.points.empty()) return {};
+  const ReportPoint& last = report.points.back();
+  Standing standing{.passes = last.pass, .spp = last.spp};
+  if (last.error.is_known) standing.rmse = last.error.high;
+  const PassSchedule::Next next = PassSchedule(spec).next(standing);
+  return next.samples > 0.0 ? std::string() : next.stop;
 }
 
 ViewPlan plan_view(const CompiledScene& scene, const View& view) { return plan_view(scene, view, current_isa()); }

@@ -29,9 +29,13 @@ enum class RenderState { running, done, cancelled, failed };
 struct RayCounts {
   int64_t primary = 0, shadow = 0, reflected = 0, refracted = 0;
   int64_t total() const { return primary + shadow + reflected + refracted; }
+  RayCounts operator-(const RayCounts& o) const {
+    return {primary - o.primary, shadow - o.shadow, reflected - o.reflected, refracted - o.refracted};
+  }
 };
 
-// One point of the report: after a whole pass. Times in milliseconds since the start.
+// One point of the report: after a whole pass. Times in milliseconds since the start, with those of the render that was
+// continued before it.
 struct ReportPoint {
   int pass = 0;
   double spp = 0.0;  // samples a pixel: the mean over pixels
@@ -60,9 +64,27 @@ struct RenderProgress {
   std::string error;     // state failed only
 };
 
+// What a done render leaves for others to go on from. Opaque; immutable.
+struct ExposedFilm;
+int64_t memory_bytes(const ExposedFilm& film);
+
+// The render that another one goes on from. Its samples count: the same passes in one render give the same bytes.
+struct Continued {
+  RenderReport report;  // its points and passes come first
+  // Null: its passes are rendered once more, before the new render's clock starts.
+  std::shared_ptr<const ExposedFilm> film;
+};
+
+// The first stop rule of the view that the picture of the report meets already ("samples", "rmse", "time", "passes"),
+// so that there is nothing to go on for; else empty.
+std::string rule_met(const RenderSpec& spec, const RenderReport& report);
+
 struct RenderOptions {
   int tile_px = 0;                // rounded up to whole cells of the film; 0: chosen by measurement
   std::function<void()> on_pass;  // after each whole pass and at the end, from a pool thread; must be quick
+  // REQUIRES: a done render of the same scene and of a view that differs in samples, rmse, time_ms and passes alone.
+  // Samples and rmse speak of the whole picture, time_ms of what is added.
+  std::optional<Continued> continues;
 };
 
 class Render {
@@ -79,6 +101,8 @@ class Render {
   virtual std::shared_ptr<const Image> image() const = 0;
   // By pixel of that image, what its error is below of in 95 % of cases, displayed. Null before the first pass.
   virtual std::shared_ptr<const std::vector<float>> error_bounds() const = 0;
+  // Once it is done. Null before, and where samples of a pass that was dropped are among those that count.
+  virtual std::shared_ptr<const ExposedFilm> exposed_film() const = 0;
   // Blocks until the render ends or the time is over. True if it ended.
   virtual bool wait_ms(double ms) const = 0;
 };

@@ -13,6 +13,10 @@ namespace tilelight::server {
 
 std::string job_json(const JobRecord& record);
 std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [...]}, without plans and reports
+// The data of events, each on one line.
+std::string state_document(const WorkStatus& status);
+std::string progress_document(const RenderProgress& progress);
+std::string point_document(const ReportPoint& point);
 std::string report_csv(const RenderReport& report);
 
 std::string scene_document(std::string_view id, const std::vector<SceneWarning>& warnings);

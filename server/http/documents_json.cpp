@@ -55,6 +55,7 @@ Json brief_json(const JobRecord& record) {
               {"state", job_state_name(status.state)},
               {"revision", status.revision},
               {"scene", record.scene_id},
+              {"refines", record.refines.empty() ? Json(nullptr) : Json(record.refines)},
               {"priority", priority_name(record.priority)},
               {"format", image_format_name(record.format)},
               {"created_at", time_or_null(status.created_ms)},
@@ -84,6 +85,21 @@ std::string jobs_json(const std::vector<JobRecord>& records) {
   Json list = Json::array();
   for (const JobRecord& record : records) list.push_back(brief_json(record));
   return text_of({{"renders", std::move(list)}});
+}
+
+std::string state_document(const WorkStatus& status) {
+  Json out = {{"state", job_state_name(status.state)}, {"revision", status.revision}};
+  if (!status.report.stop.empty()) out["stop"] = status.report.stop;
+  if (!status.error.empty()) out["error"] = {{"detail", status.error}};
+  return text_of(out);
+}
+
+std::string progress_document(const RenderProgress& progress) { return text_of(progress_json(progress)); }
+
+std::string point_document(const ReportPoint& point) {
+  RenderReport report;
+  report.points = {point};
+  return text_of(Json::parse(report_json(report, Plan{})).at("points").at(0));
 }
 
 std::string report_csv(const RenderReport& report) {
@@ -146,10 +162,10 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
 
 std::string limits_document(const Config& config) {
   Json out = Json::parse(limits_json(config.limits));
-  out["server"] = {{"max_queue", config.max_queue},
-                   {"max_sessions", config.max_sessions},
-                   {"max_results", config.max_results},
-                   {"max_wait_s", 60}};
+  out["server"] = {{"max_queue", config.max_queue},     {"max_sessions", config.max_sessions},
+                   {"max_results", config.max_results}, {"films_mb", config.films_mb},
+                   {"film_keep_s", config.film_keep_s}, {"max_wait_s", 60},
+                   {"max_streams", config.max_streams}};
   return text_of(out);
 }
 

@@ -16,7 +16,7 @@ namespace tilelight::server {
 namespace {
 
 constexpr uint64_t kListenerId = 0, kWakeId = 1;
-constexpr int kTickMs = 250;             // how often deadlines are looked at
+constexpr int kTickMs = 250;             // how often deadlines and streams are looked at
 constexpr size_t kReadBytes = 64 << 10;  // at a time, so that one fast sender does not hold the loop
 
 }  // namespace
@@ -107,6 +107,7 @@ void Front::run_loop() {
     const double now = now_ms();
     if (now >= next_check_ms) {
       check_deadlines();
+      pump_streams();
       set_accepting(true);
       next_check_ms = now + kTickMs;
     }
@@ -120,7 +121,7 @@ void Front::run_loop() {
 
 bool Front::is_drained() const {
   for (const auto& [id, c] : connections_) {
-    if (c->phase == Phase::serving || c->phase == Phase::writing) return false;
+    if (c->phase == Phase::serving || c->phase == Phase::writing || c->phase == Phase::streaming) return false;
   }
   return true;
 }
@@ -164,7 +165,7 @@ void Front::accept_all() {
 bool Front::make_room() {
   const Connection* oldest = nullptr;
   for (const auto& [id, c] : connections_) {
-    if (c->phase == Phase::serving || c->phase == Phase::writing) continue;
+    if (c->phase == Phase::serving || c->phase == Phase::writing || c->phase == Phase::streaming) continue;
     if (!oldest || c->since_ms < oldest->since_ms) oldest = c.get();
   }
   if (oldest) close_connection(oldest->id);
@@ -185,6 +186,8 @@ void Front::handle_event(uint64_t id, uint32_t events) {
       return;
     case Phase::writing:
       return write_some(c);
+    case Phase::streaming:
+      return close_connection(id);  // the client has closed its sending side: nobody listens
     case Phase::closing:
       return discard(c);
   }

@@ -2,7 +2,8 @@
 // Front: the sockets. One thread with epoll accepts connections, reads complete requests under limits on head, body,
 // time, memory and number, and writes responses; only a complete request takes a worker. So slow clients cost memory
 // that is capped, and never a thread: over the cap those go that hold most of it, and not those that come next.
-// Pipelined requests are answered one after the other.
+// Pipelined requests are answered one after the other. A response may be a stream: it takes no worker, is asked for its
+// next piece at each tick once the last has been taken, and so holds one piece for a slow reader and never more.
 #pragma once
 
 #include <atomic>
@@ -68,7 +69,8 @@ class Front {
  private:
   static constexpr size_t kSmallBytes = 16 << 10;  // a head's worth: dropping less makes no room
 
-  enum class Phase { reading, serving, writing, closing };  // closing: discards what the client still sends
+  // streaming: between two pieces of a stream; closing: discards what the client still sends.
+  enum class Phase { reading, serving, writing, streaming, closing };
   struct Connection {
     uint64_t id = 0;
     int fd = -1;
@@ -105,6 +107,7 @@ class Front {
   void begin_write(Connection& c, Served response);
   void write_some(Connection& c);
   void end_write(Connection& c);
+  void pump_streams();
   void discard(Connection& c);
   bool make_unread_room();
   void take_finished();

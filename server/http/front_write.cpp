@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 
 #include "server/http/front.h"
 
@@ -31,9 +33,31 @@ ssize_t send_from(int fd, const Served& response, size_t at) {
   return sendmsg(fd, &message, MSG_NOSIGNAL);
 }
 
+// Adds the stream's next piece, and its end.
+void pull(Served& response) {
+  std::optional<std::string> piece;
+  try {
+    piece = response.stream->next();
+  } catch (const std::exception&) {  // without the last chunk the client sees that it is cut short
+    response.stream = nullptr;
+    response.close = true;
+    return;
+  }
+  if (piece && piece->empty()) return;
+  if (!piece) response.stream = nullptr;
+  if (!response.is_chunked) {
+    response.bytes += piece.value_or("");
+    return;
+  }
+  char size[32];
+  std::snprintf(size, sizeof size, "%zx\r\n", piece ? piece->size() : 0);
+  response.bytes += size + piece.value_or("") + "\r\n";
+}
+
 }  // namespace
 
 void Front::begin_write(Connection& c, Served response) {
+  if (response.stream) pull(response);
   unread_.add(response);
   if (response.size() > kSmallBytes && !make_unread_room()) {
     unread_.remove(response);
@@ -72,6 +96,12 @@ void Front::write_some(Connection& c) {
 
 void Front::end_write(Connection& c) {
   unread_.remove(c.out);
+  if (c.out.stream) {
+    c.out.bytes.clear();
+    c.phase = Phase::streaming;
+    c.deadline_ms = INFINITY;
+    return watch(c, EPOLLRDHUP);
+  }
   c.out = {};
   if (c.close_after) {
     // Closing at once would reset the connection under what the client still sends and lose the answer.
@@ -86,6 +116,24 @@ void Front::end_write(Connection& c) {
   c.deadline_ms = c.since_ms + (c.in.empty() ? options_.idle_timeout_ms : options_.head_timeout_ms);
   watch(c, EPOLLIN | EPOLLRDHUP);
   if (!c.in.empty()) advance(c);  // the next request was sent along
+}
+
+void Front::pump_streams() {
+  std::vector<Connection*> ready;  // writing may close a connection, and so change the map
+  for (const auto& [id, c] : connections_) {
+    if (c->phase == Phase::streaming) ready.push_back(c.get());
+  }
+  for (Connection* c : ready) {
+    pull(c->out);
+    if (c->out.bytes.empty() && c->out.stream) continue;
+    unread_.add(c->out);
+    c->phase = Phase::writing;
+    c->written = 0;
+    c->close_after |= c->out.close;
+    c->since_ms = now_ms();
+    c->deadline_ms = c->since_ms + options_.write_timeout_ms;
+    write_some(*c);
+  }
 }
 
 void Front::discard(Connection& c) {

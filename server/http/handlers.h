@@ -9,11 +9,15 @@ namespace tilelight::server {
 
 // handlers_renders.cpp
 Reply post_render(Services&, const Request&);
+Reply post_refine(Services&, const Request&);
 Reply list_renders(Services&, const Request&);
 Reply get_render(Services&, const Request&);
 Reply delete_render(Services&, const Request&);
 Reply get_render_report(Services&, const Request&);
 Reply get_render_pixel(Services&, const Request&);
+
+// handlers_events.cpp
+Reply get_render_events(Services&, const Request&);
 
 // handlers_images.cpp
 Reply get_render_image(Services&, const Request&);

@@ -2,6 +2,7 @@
 #include "renderer/base/hash.h"
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
+#include "server/http/orders.h"
 #include "server/http/render_body.h"
 #include "server/http/text.h"
 
@@ -14,116 +15,57 @@ namespace {
                  "it that its record was dropped");
 }
 
-// What the client wants for an answer.
-struct Wish {
-  std::optional<ImageFormat> image;  // wait and answer with it; nothing: answer with the job
-};
-
-::tl::expected<Wish, Problem> read_wish(const Request& request) {
-  if (read_preferences(request).respond_async) return Wish{};
-  const auto image = asked_image_format(request);
-  if (!image && !best_offer(request, {"application/json"})) {
-    return problem(406, "not_acceptable",
-                   "a render can be answered as image/png, image/jpeg, image/x-exr or, as a job, application/json");
-  }
-  return Wish{image};
-}
-
-// Waits for the work; the image, or nothing if it takes longer than the client waits.
-::tl::expected<std::optional<Response>, Problem> wait_for_image(Services& services, const Request& request,
-                                                                RenderWork& work, ImageFormat format) {
-  auto slot = services.waits.take(request.client);
-  if (!slot) return ::tl::unexpected(slot.error());
-  const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0));
-  if (request.gone.stop_requested()) return client_gone();
-  if (!has_ended) return std::optional<Response>();
-  if (work.state() != JobState::done) return ended_without_image(work.status());
-  auto image = work.encoded(format, services.pool);
-  if (!image) return problem(410, image.error().code, image.error().detail);
-  Response response = image_response(work, *image, format);
-  response.with("Cache-Control", "no-store");
-  return std::optional<Response>(std::move(response));
-}
-
-// The client's key of a request that may be sent twice. Empty: none.
-::tl::expected<std::string, Problem> read_idempotency_key(const Request& request) {
-  const std::string key(request.header("Idempotency-Key").value_or(""));
-  if (key.size() > 255) return problem(400, "bad_request", "an Idempotency-Key may have 255 characters");
-  return key;
-}
-
-// Answers a retry with the job that its first try led to, if it is still there.
-::tl::expected<std::optional<Response>, Problem> answer_retry(Services& services, const Request& request,
-                                                              const IdempotencyKeys::Claim& claim, const Wish& wish) {
-  if (claim.is_other_body) {
-    return problem(422, "idempotency_key_reused", "this Idempotency-Key came with another body before");
-  }
-  const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
-  if (!record) return std::optional<Response>();
-  const WorkPtr work = services.jobs.work(record->id);
-  if (wish.image && work) {
-    auto image = wait_for_image(services, request, *work, *wish.image);
-    if (!image || *image) return image;
-  }
-  return std::optional<Response>(accepted_response(*services.jobs.find(record->id), request));
-}
-
-// What a POST of a render wants, read from its headers. The claim: of the request's idempotency key, if it has one.
-struct Order {
-  Wish wish;
-  std::optional<IdempotencyKeys::Claim> claim;
-};
-
-// The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
-Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
-                           ImageFormat format) {
-  auto record = services.jobs.keep(std::move(lease), request.client, format);
-  if (!record || !order.claim) return record;
-  const std::string winner = services.keys.bind(*order.claim, record->id);
-  if (winner == record->id) return record;
-  auto first = services.jobs.find(winner);
-  if (!first) return record;  // deleted since
-  services.jobs.forget(record->id);
-  return std::move(*first);
-}
-
-Reply submit_render(Services& services, const Request& request, const Order& order) {
-  auto body = read_render_body(services, request.body, {"format", "priority"});
-  if (!body) return ::tl::unexpected(body.error());
-  const std::optional<ImageFormat>& image_format = order.wish.image;
-  // "format" says how a job keeps its image; an image that is waited for is what Accept says.
-  const ImageFormat format = image_format.value_or(body->format.value_or(ImageFormat::png));
-  const Priority priority = body->priority.value_or(image_format ? Priority::normal : Priority::batch);
-  auto lease = services.queue.submit(
-      {body->scene, std::move(body->view), format, priority, std::move(body->warnings), body->parse_ms});
-  if (!lease) return refused(services, lease.error());
-  if (image_format) {
-    auto image = wait_for_image(services, request, *lease->work(), format);
-    if (!image) return ::tl::unexpected(image.error());
-    if (*image) return std::move(**image);
-  }
-  const auto record = keep_job(services, std::move(*lease), request, order, format);
-  if (!record) return refused(services, record.error());
-  return accepted_response(*record, request);
+// Whether others may go on from it, or why not.
+::tl::expected<void, Problem> check_refinable(Services& services, const JobRecord& record, const WorkPtr& work) {
+  const JobState state = record.status.state;
+  const std::string name(job_state_name(state));
+  if (!is_final(state)) return problem(409, "not_ready", "the render is " + name + "; refine it once it is done");
+  if (state != JobState::done)
+    return problem(409, name, "the render is " + name + " and can not be refined; submit it again");
+  // Who asks at once may come before those who are told of the end.
+  if (work) services.jobs.films().add(work);
+  if (work && work->is_refinable()) return {};
+  return problem(410, "expired",
+                 "the film of this render is no longer kept (/v1/limits says how long and how much); submit the scene "
+                 "again with the samples or the error that it shall have");
 }
 
 }  // namespace
 
 Reply post_render(Services& services, const Request& request) {
-  const auto wish = read_wish(request);
-  if (!wish) return ::tl::unexpected(wish.error());
-  const auto key = read_idempotency_key(request);
-  if (!key) return ::tl::unexpected(key.error());
-  Order order{*wish, std::nullopt};
-  if (!key->empty()) {
-    order.claim = services.keys.claim(request.client, *key, sha256_hex(request.body));
-    auto retried = answer_retry(services, request, *order.claim, *wish);
-    if (!retried) return ::tl::unexpected(retried.error());
-    if (*retried) return std::move(**retried);
-  }
-  Reply reply = submit_render(services, request, order);
-  if (!reply && order.claim) services.keys.release(*order.claim);
-  return reply;
+  return accept_order(services, request, sha256_hex(request.body),
+                      [&](const Wish& wish) -> ::tl::expected<RenderRequest, Problem> {
+                        auto body = read_render_body(services, request.body, {"format", "priority"});
+                        if (!body) return ::tl::unexpected(body.error());
+                        RenderRequest order{body->scene, std::move(body->view)};
+                        order.format = format_of(wish, body->format.value_or(ImageFormat::png));
+                        order.priority = priority_of(wish, body->priority);
+                        order.warnings = std::move(body->warnings);
+                        order.parse_ms = body->parse_ms;
+                        return order;
+                      });
+}
+
+Reply post_refine(Services& services, const Request& request) {
+  const std::string& id = request.args[0];
+  return accept_order(services, request, sha256_hex("refine;" + id + ";" + std::string(request.body)),
+                      [&](const Wish& wish) -> ::tl::expected<RenderRequest, Problem> {
+                        const auto record = services.jobs.find(id);
+                        if (!record) return no_such_render();
+                        const WorkPtr work = services.jobs.work(id);
+                        if (auto can = check_refinable(services, *record, work); !can)
+                          return ::tl::unexpected(can.error());
+                        auto body = read_refine_body(request.body, work->request().view, record->status.report,
+                                                     services.config.limits);
+                        if (!body) return ::tl::unexpected(body.error());
+                        RenderRequest order{work->request().scene, std::move(body->view)};
+                        order.format = format_of(wish, body->format.value_or(record->format));
+                        order.priority = priority_of(wish, body->priority);
+                        order.warnings = work->request().warnings;
+                        order.parse_ms = body->parse_ms;
+                        order.refines = RefineSource{id, record->status.report, work->film()};
+                        return order;
+                      });
 }
 
 Reply list_renders(Services& services, const Request& request) {

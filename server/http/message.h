@@ -53,12 +53,21 @@ struct Request {
 // Bytes that others hold too, and that nobody changes.
 using SharedBytes = std::shared_ptr<const std::string>;
 
+// The body of a response that comes as it is made. One thread at a time asks; it must not block.
+class BodyStream {
+ public:
+  virtual ~BodyStream() = default;
+  // What there is to send now, of bounded size; empty: nothing yet. Nothing: the end.
+  virtual std::optional<std::string> next() = 0;
+};
+
 struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string content_type;
   std::string body;
   SharedBytes shared = nullptr;  // in place of `body`: an image that many clients read slowly is in memory once
+  std::shared_ptr<BodyStream> stream = nullptr;  // in place of both
 
   size_t body_bytes() const { return shared ? shared->size() : body.size(); }
 

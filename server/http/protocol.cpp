@@ -63,7 +63,9 @@ class OneRequest final : private httplib::Server {
       Response response = handle(from_httplib(in));
       was_understood_ = true;
       is_head_ = in.method == "HEAD";
+      is_http_1_0_ = in.version == "HTTP/1.0";
       shared_ = response.shared;
+      stream_ = response.stream;
       to_httplib(std::move(response), is_head_, out);
       return HandlerResponse::Handled;
     });
@@ -75,27 +77,31 @@ class OneRequest final : private httplib::Server {
     served.close = close_after;
     const bool alive = process_request(stream, close_after, served.close, nullptr);
     if (!was_understood_) return std::nullopt;
-    served.close |= close_after || !alive;
+    served.close |= close_after || !alive || (stream_ && is_http_1_0_);
     correct_length(served.bytes);
-    if (!is_head_) served.body = std::move(shared_);
+    served.is_chunked = !is_http_1_0_;
+    if (!is_head_) served.body = std::move(shared_), served.stream = std::move(stream_);
     return served;
   }
 
  private:
-  // httplib writes a Content-Length of 0 where the body is shared, and where RFC 9110 (8.6) wants none: 204, and 304
-  // whose length would be the 200's.
+  // httplib writes a Content-Length of 0 where the body is shared or a stream, and where RFC 9110 (8.6) wants none:
+  // 204, and 304 whose length would be the 200's.
   void correct_length(std::string& bytes) const {
     constexpr std::string_view kFalse = "Content-Length: 0\r\n";
     const bool has_no_body = bytes.rfind("HTTP/1.1 204", 0) == 0 || bytes.rfind("HTTP/1.1 304", 0) == 0;
-    if (!shared_ && !has_no_body) return;
+    if (!shared_ && !stream_ && !has_no_body) return;
     const size_t at = bytes.find("\r\n" + std::string(kFalse));
     if (at == std::string::npos) return;
-    bytes.replace(at + 2, kFalse.size(),
-                  shared_ ? "Content-Length: " + std::to_string(shared_->size()) + "\r\n" : std::string());
+    std::string field;
+    if (shared_) field = "Content-Length: " + std::to_string(shared_->size()) + "\r\n";
+    if (stream_ && !is_http_1_0_) field = "Transfer-Encoding: chunked\r\n";
+    bytes.replace(at + 2, kFalse.size(), field);
   }
 
-  bool was_understood_ = false, is_head_ = false;
+  bool was_understood_ = false, is_head_ = false, is_http_1_0_ = false;
   SharedBytes shared_;
+  std::shared_ptr<BodyStream> stream_;
 };
 
 }  // namespace

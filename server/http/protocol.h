@@ -15,6 +15,10 @@ struct Served {
   std::string bytes;           // the head, and the body unless it is shared
   SharedBytes body = nullptr;  // follows the bytes
   bool close = false;          // the connection, after it
+  // What follows both, asked for piece by piece; each is a chunk (RFC 9112, 7.1), or else the connection's end is its
+  // end.
+  std::shared_ptr<BodyStream> stream = nullptr;
+  bool is_chunked = false;
 
   size_t size() const { return bytes.size() + (body ? body->size() : 0); }
 };

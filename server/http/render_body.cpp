@@ -24,10 +24,12 @@ std::string join(const std::vector<std::string>& words) {
 // What is wrong with the members around a scene, collected.
 class MemberErrors {
  public:
-  void add(std::string_view key, std::string code, std::string detail, std::vector<std::string> allowed = {}) {
+  // key: empty for the whole body.
+  void add(std::string_view key, std::string code, std::string detail, std::vector<std::string> allowed = {},
+           std::string hint = "") {
     if (errors_.errors.size() == kMaxErrors) return;
-    errors_.errors.push_back(
-        {"/" + std::string(key), std::move(code), std::move(detail), std::move(allowed), "", 0, 0});
+    errors_.errors.push_back({(key.empty() ? "" : "/") + std::string(key), std::move(code), std::move(detail),
+                              std::move(allowed), std::move(hint), 0, 0});
   }
   // Every key is known and none comes twice.
   void check_keys(const std::vector<JsonMember>& members, const std::vector<std::string>& known) {
@@ -139,6 +141,53 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
   return out;
 }
 
+constexpr std::string_view kRules[] = {"samples", "rmse", "time_ms"};
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// The stop rules of a refining body, read as those of a scene are.
+::tl::expected<View, Problem> read_rules(std::string_view body, const std::vector<JsonMember>& members,
+                                         const Limits& limits) {
+  constexpr std::string_view kAround = "{\"render\": ";
+  const std::string rules = keep_members(body, members, {std::begin(kRules), std::end(kRules)});
+  auto view = parse_view(std::string(kAround) + rules + "}", View{}, limits);
+  if (view) return std::move(*view);
+  for (SceneError& error : view.error().errors) {
+    if (error.pointer.rfind("/render", 0) == 0) error.pointer.erase(0, std::string_view("/render").size());
+    if (error.line == 1) error.column -= static_cast<int>(kAround.size());
+  }
+  return scene_problem(view.error());
+}
+
+// Says which rule leaves nothing to do, and what would.
+void add_if_met(const RenderSpec& rules, const RenderReport& report, const Limits& limits, MemberErrors& errors) {
+  const std::string met = rule_met(rules, report);
+  const ReportPoint& last = report.points.back();
+  const std::string spp = number_text(last.spp);
+  if (met == "samples" && rules.samples_implied) {
+    errors.add(
+        "", "already_reached",
+        "the render has " + spp + " samples a pixel, of " + std::to_string(limits.samples) + " that it may have");
+  } else if (met == "samples") {
+    errors.add("samples", "already_reached",
+               "the render has " + spp + " samples a pixel, so " + std::to_string(*rules.samples) + " add nothing",
+               {"over " + spp + ", up to " + std::to_string(limits.samples)},
+               "'samples' counts the whole picture: to add as many again, ask for " + number_text(2.0 * last.spp));
+  } else if (met == "rmse") {
+    errors.add("rmse", "already_reached",
+               "the error of the render is below " + number_text(last.error.high) + ", so " + number_text(*rules.rmse) +
+                   " adds nothing",
+               {"below " + number_text(last.error.high)}, "ask for a smaller error, or for samples or time");
+  } else if (met == "time") {
+    errors.add("time_ms", "out_of_range", "found " + number_text(*rules.time_ms) + ", too little for any pass",
+               {"3 or more"});
+  }
+}
+
 // A number list of a query as a JSON array, or a single number; nothing if it holds anything else, so that no text of a
 // query can pose as JSON.
 std::optional<std::string> query_numbers(std::string_view text, bool is_vector) {
@@ -165,6 +214,40 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   const auto start = Steady::now();
   auto out = parse_where_it_fits(services, body, [&] { return parse_body(services, body, wishes); });
   if (out) out->parse_ms = ms_since(start);
+  return out;
+}
+
+::tl::expected<RefineBody, Problem> read_refine_body(std::string_view body, const View& source,
+                                                     const RenderReport& report, const Limits& limits) {
+  const auto start = Steady::now();
+  const auto members = scan_members(body);
+  if (!members) {  // the parser of views says where it is broken
+    auto broken = parse_view(body, View{}, limits);
+    return broken ? problem(400, "not_json", "the body must be one JSON object") : scene_problem(broken.error());
+  }
+  MemberErrors errors;
+  errors.check_keys(*members, {"samples", "rmse", "time_ms", "format", "priority"});
+  RefineBody out;
+  out.format = read_word<ImageFormat>(*members, "format", find_image_format, {"png", "jpeg", "exr"}, errors);
+  out.priority = read_word<Priority>(*members, "priority", find_batch_or_normal, {"normal", "batch"}, errors);
+  const bool has_rule = std::any_of(std::begin(kRules), std::end(kRules),
+                                    [&](std::string_view rule) { return find_member(*members, rule) != nullptr; });
+  if (!has_rule)
+    errors.add("", "missing_key", "one of 'samples', 'rmse' and 'time_ms' must say how far to go",
+               {std::begin(kRules), std::end(kRules)});
+  if (!errors.empty()) return errors.problem();
+  auto rules = read_rules(body, *members, limits);
+  if (!rules) return ::tl::unexpected(rules.error());
+  out.view = source;
+  RenderSpec& render = out.view.render;
+  render.samples = rules->render.samples;
+  render.samples_implied = rules->render.samples_implied;
+  render.rmse = rules->render.rmse;
+  render.time_ms = rules->render.time_ms;
+  render.passes.clear();
+  add_if_met(render, report, limits, errors);
+  if (!errors.empty()) return errors.problem();
+  out.parse_ms = ms_since(start);
   return out;
 }
 

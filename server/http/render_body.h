@@ -24,6 +24,17 @@ struct RenderBody {
 ::tl::expected<RenderBody, Problem> read_render_body(Services& services, std::string_view body,
                                                      std::initializer_list<std::string_view> wishes);
 
+// {"samples"?, "rmse"?, "time_ms"?, "format"?, "priority"?}, of the first three at least one: a view that differs from
+// the source's in its stop rules alone. A rule that the source's picture meets already is an error.
+struct RefineBody {
+  View view;
+  std::optional<ImageFormat> format;
+  std::optional<Priority> priority;
+  double parse_ms = 0.0;
+};
+::tl::expected<RefineBody, Problem> read_refine_body(std::string_view body, const View& source,
+                                                     const RenderReport& report, const Limits& limits);
+
 // A scene document and nothing around it.
 ::tl::expected<ScenePtr, Problem> read_scene(Services& services, std::string_view body);
 

@@ -18,6 +18,8 @@ const std::vector<Route> kApiRoutes = {
     {"GET", "/v1/renders/{id}/image", get_render_image},
     {"GET", "/v1/renders/{id}/report", get_render_report},
     {"GET", "/v1/renders/{id}/pixel", get_render_pixel},
+    {"GET", "/v1/renders/{id}/events", get_render_events},
+    {"POST", "/v1/renders/{id}/refine", post_refine},
     {"POST", "/v1/scenes", post_scene},
     {"GET", "/v1/scenes/{id}", get_scene},
     {"GET", "/v1/scenes/{id}/plan", get_scene_plan},

@@ -58,6 +58,8 @@ struct Services {
   Sessions& sessions;
   IdempotencyKeys& keys;
   WaitSlots& waits;
+  WaitSlots& streams;  // of events
+  const Clock& clock;
   const std::atomic<bool>& is_stopping;
 };
 

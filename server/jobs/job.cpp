@@ -73,7 +73,8 @@ std::string view_fingerprint(const View& view) {
 
 std::string render_key(const RenderRequest& request) {
   return sha256_hex(request.scene->parsed.scene_id + ";" + view_fingerprint(request.view) + ";" +
-                    std::string(priority_name(request.priority)));
+                    std::string(priority_name(request.priority)) +
+                    (request.refines ? ";" + request.refines->job_id : ""));
 }
 
 }  // namespace tilelight::server

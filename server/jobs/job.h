@@ -10,7 +10,8 @@
 //
 // A RenderWork is the work itself; identical requests in flight share one. Its holders are waiting requests and jobs.
 // A job is the record a client can come back to: made only when an answer was 202, forgotten by DELETE. The result of
-// a done job is kept until the results' cap on count or bytes drops the oldest; the record then says so (410).
+// a done job is kept until the results' cap on count or bytes drops the oldest; the record then says so (410). Its film
+// is kept for a shorter time (kept_films.h), in which a new render may go on from it.
 #pragma once
 
 #include <cstdint>
@@ -35,20 +36,29 @@ std::string_view priority_name(Priority priority);
 std::string_view image_format_name(ImageFormat format);  // "png", "jpeg", "exr"
 std::optional<ImageFormat> find_image_format(std::string_view name);
 
+// The done render that another one goes on from.
+struct RefineSource {
+  std::string job_id;
+  RenderReport report;
+  // Weak: what waits in the queue must not keep the film. Once it is gone the passes of the report are rendered again.
+  std::weak_ptr<const ExposedFilm> film;
+};
+
 // What to render.
 struct RenderRequest {
   ScenePtr scene;
   View view;
   ImageFormat format = ImageFormat::png;  // in which the result is encoded before it is called done
   Priority priority = Priority::normal;
-  std::vector<SceneWarning> warnings;  // of the scene and of the view
+  std::vector<SceneWarning> warnings = {};  // of the scene and of the view
   double parse_ms = 0.0;
+  std::optional<RefineSource> refines = {};
 };
 
 // All values of a view as text, exact to the bit: two views with the same text give the same image.
 std::string view_fingerprint(const View& view);
 
-// What identical renders share: SHA-256 of scene and view.
+// What identical renders share: SHA-256 of scene, view and what they go on from.
 std::string render_key(const RenderRequest& request);
 
 struct Timings {
@@ -73,6 +83,7 @@ struct JobRecord {
   uint64_t sequence = 0;  // order of submission; given by the store
   std::string client;     // whose job it is
   std::string scene_id;
+  std::string refines;  // id of the job that it goes on from; empty without one
   double exposure = 0.0;
   Priority priority = Priority::normal;
   ImageFormat format = ImageFormat::png;

@@ -139,6 +139,7 @@ void JobQueue::begin_render(const WorkPtr& work, const CompiledPtr& compiled) {
   options.on_pass = [self = shared_from_this(), weak = std::weak_ptr(work)] {
     if (const WorkPtr alive = weak.lock()) self->note_pass(alive);
   };
+  if (const auto& source = work->request().refines) options.continues = Continued{source->report, source->film.lock()};
   work->set_render(Render::start(pool_, work->request().priority, compiled, std::move(plan), std::move(options)));
   if (work->is_cancel_requested()) work->request_cancel();  // asked for while there was no render to tell
   note_pass(work);  // the first passes may have ended before the work knew its render
@@ -193,7 +194,9 @@ void JobQueue::end(const WorkPtr& work, JobState state, std::string error) {
   const WorkStatus status = work->status();
   metrics_.add("tilelight_renders_total", "state=\"" + std::string(job_state_name(state)) + "\"");
   if (!status.report.points.empty()) {
-    const RayCounts& rays = status.report.points.back().rays;
+    // The report goes on from the source's, whose rays were counted when it ended.
+    RayCounts rays = status.report.points.back().rays;
+    if (const auto& source = work->request().refines) rays = rays - source->report.points.back().rays;
     metrics_.add("tilelight_rays_total", "kind=\"primary\"", static_cast<double>(rays.primary));
     metrics_.add("tilelight_rays_total", "kind=\"shadow\"", static_cast<double>(rays.shadow));
     metrics_.add("tilelight_rays_total", "kind=\"reflected\"", static_cast<double>(rays.reflected));

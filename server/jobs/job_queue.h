@@ -45,7 +45,7 @@ class JobQueue : public std::enable_shared_from_this<JobQueue> {
     int max_running_normal = 8;
     int max_running_batch = 2;
     // Whatever their number: memory of the films of running renders, and of the scenes of all that are in the queue.
-    int64_t max_film_bytes = int64_t{3} << 30;
+    int64_t max_film_bytes = int64_t{2} << 30;
     int64_t max_scene_bytes = int64_t{1} << 30;
   };
   struct Counts {

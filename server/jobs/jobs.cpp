@@ -7,17 +7,19 @@
 
 namespace tilelight::server {
 
-std::shared_ptr<Jobs> Jobs::make(std::unique_ptr<JobStore> store, Options options) {
-  return std::shared_ptr<Jobs>(new Jobs(std::move(store), options));
+std::shared_ptr<Jobs> Jobs::make(std::unique_ptr<JobStore> store, const Clock& clock, Options options) {
+  return std::shared_ptr<Jobs>(new Jobs(std::move(store), clock, options));
 }
 
 Result<JobRecord> Jobs::keep(WorkLease lease, const std::string& client, ImageFormat format) {
   const WorkPtr work = lease.work();
   const RenderRequest& request = work->request();
+  work->keep_film();
   JobRecord record;
   record.id = random_id();
   record.client = client;
   record.scene_id = request.scene->parsed.scene_id;
+  if (request.refines) record.refines = request.refines->job_id;
   record.exposure = request.view.image.exposure;
   record.priority = request.priority;
   record.format = format;  // not request.format: identical renders share work whatever their formats
@@ -81,6 +83,7 @@ void Jobs::note_change(const std::string& id) {
     if (held_.count(id) == 0 || std::find(ended_.begin(), ended_.end(), id) != ended_.end()) return;
     ended_.push_back(id);
   }
+  if (const WorkPtr work = this->work(id)) films_.add(work);
   drop_oldest_results();
 }
 

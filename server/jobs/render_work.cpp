@@ -110,6 +110,32 @@ int64_t RenderWork::result_bytes() const {
   return picture_bytes + encoded_bytes_ + 2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
 }
 
+void RenderWork::keep_film() {
+  const std::lock_guard lock(mutex_);
+  keeps_film_ = true;
+}
+
+bool RenderWork::is_refinable() const {
+  const std::lock_guard lock(mutex_);
+  return keeps_film_ && status_.state == JobState::done;
+}
+
+std::shared_ptr<const ExposedFilm> RenderWork::film() const {
+  const std::lock_guard lock(mutex_);
+  return film_;
+}
+
+int64_t RenderWork::film_bytes() const {
+  const auto film = this->film();
+  return film ? memory_bytes(*film) : 0;
+}
+
+std::shared_ptr<const ExposedFilm> RenderWork::drop_film() {
+  const std::lock_guard lock(mutex_);
+  keeps_film_ = false;
+  return std::move(film_);
+}
+
 void RenderWork::watch(std::function<void()> fn) {
   const std::lock_guard lock(mutex_);
   watchers_.push_back(std::move(fn));
@@ -165,7 +191,9 @@ void RenderWork::take_result() {
   auto picture = picture_of(*render);
   auto progress = render->progress();
   auto report = render->report();
+  auto film = render->exposed_film();
   const std::lock_guard lock(mutex_);
+  if (keeps_film_) film_ = std::move(film);
   picture_ = std::move(picture);
   status_.timings.render_ms = progress.elapsed_ms;
   status_.progress = std::move(progress);
@@ -180,7 +208,7 @@ void RenderWork::set_ended(JobState state, std::string error, int64_t finished_m
     status_.error = std::move(error);
     status_.finished_ms = finished_ms;
     status_.progress.eta_ms = state == JobState::done ? 0.0 : -1.0;
-    if (state != JobState::done) picture_ = {};
+    if (state != JobState::done) picture_ = {}, film_ = nullptr;
   }
   bump();
   notify_watchers();

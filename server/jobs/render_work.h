@@ -52,6 +52,16 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   void drop_image();
   int64_t result_bytes() const;
 
+  // Says that a job was made of it: from its end to drop_film() others may go on from it. The film is kept if this was
+  // said before the end.
+  void keep_film();
+  bool is_refinable() const;
+  // Null: there is none, and who goes on renders the passes of the report again.
+  std::shared_ptr<const ExposedFilm> film() const;
+  int64_t film_bytes() const;
+  // Hands it over, for its memory to be given back where no lock is held.
+  std::shared_ptr<const ExposedFilm> drop_film();
+
   // Calls fn after every change of state, without a lock. REQUIRES: quick.
   void watch(std::function<void()> fn);
 
@@ -87,6 +97,8 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   WorkStatus status_;  // progress and report are filled in from render_ while there is one
   std::shared_ptr<Render> render_;
   Picture picture_;  // after the end
+  bool keeps_film_ = false;
+  std::shared_ptr<const ExposedFilm> film_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;
   int64_t encoded_bytes_ = 0;
   std::vector<std::function<void()>> watchers_;

@@ -89,6 +89,19 @@ HttpAnswer HttpClient::read(bool head_only) {
   return answer;
 }
 
+std::string HttpClient::take_through(std::string_view end) {
+  while (buffer_.find(end) == std::string::npos && fill()) continue;
+  const size_t at = buffer_.find(end);
+  return take(at == std::string::npos ? buffer_.size() : at + end.size());
+}
+
+std::string HttpClient::take(size_t count) {
+  while (buffer_.size() < count && fill()) continue;
+  const std::string bytes = buffer_.substr(0, count);
+  buffer_.erase(0, bytes.size());
+  return bytes;
+}
+
 bool HttpClient::at_end() { return buffer_.empty() && !fill() && buffer_.empty(); }
 
 size_t HttpClient::skip(size_t most) {

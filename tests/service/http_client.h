@@ -36,6 +36,9 @@ class HttpClient {
   void write(std::string_view bytes);
   // Reads one answer; `head_only` where the request was HEAD.
   HttpAnswer read(bool head_only = false);
+  // The bytes up to and with the first such end, and so many; fewer where the connection ends before.
+  std::string take_through(std::string_view end);
+  std::string take(size_t count);
   // True if the server closes the connection without another byte.
   bool at_end();
   void shut_down_sending();

@@ -24,7 +24,7 @@ TEST(Jobs, WhoseRecordIsRefusedAreNoJobsAndTheirWorkStops) {
   TilePool pool(1);
   const auto compiled = server::CompiledCache::make(pool, metrics, 1 << 20);
   const auto queue = server::JobQueue::make(pool, compiled, metrics, log, clock, {});
-  const auto jobs = server::Jobs::make(std::make_unique<RefusingStore>(), {});
+  const auto jobs = server::Jobs::make(std::make_unique<RefusingStore>(), clock, {});
   auto scene = std::make_shared<server::StoredScene>();
   scene->parsed = parse_scene(endless_scene(), Limits{}).value();
   auto lease = queue->submit({scene, scene->parsed.view, ImageFormat::png, Priority::batch, {}, 0.0});

@@ -179,6 +179,7 @@ class FailedRender final : public Render {
   }
   RenderReport report() const override { return {}; }
   std::shared_ptr<const std::vector<float>> error_bounds() const override { return nullptr; }
+  std::shared_ptr<const ExposedFilm> exposed_film() const override { return nullptr; }
   std::shared_ptr<const Image> image() const override { return nullptr; }
   bool wait_ms(double) const override { return true; }
 };
