@@ -45,7 +45,8 @@ RenderProgress wait_for_end(Render& render, ProgressLine& line) {
   return render.progress();
 }
 
-ExitCode write_results(const Render& render, const ViewPlan& plan, const RenderArguments& arguments) {
+ExitCode write_results(const Render& render, const ViewPlan& plan, const std::string& scene_id,
+                       const RenderArguments& arguments) {
   const auto format = image_format_from_extension(arguments.output);
   const auto bytes = encode_image(*render.image(), plan.view.image.exposure, *format);
   if (!bytes) return complain(kFailed, bytes.error().detail);
@@ -63,7 +64,8 @@ ExitCode write_results(const Render& render, const ViewPlan& plan, const RenderA
       return complain(kFailed, written.error().detail);
   }
   if (arguments.report.empty()) return kOk;
-  const std::string report = report_json(render.report(), plan.plan) + "\n";
+  const ReportIdentity identity{TILELIGHT_VERSION, scene_id, image_hash(*render.image())};
+  const std::string report = report_json(render.report(), plan.plan, identity) + "\n";
   if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
   return kOk;
 }
@@ -101,7 +103,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   line.clear();
   if (end.state == RenderState::cancelled) return complain(kInterrupted, "interrupted; nothing was written");
   if (end.state == RenderState::failed) return complain(kFailed, "the render failed: " + end.error);
-  const ExitCode code = write_results(*render, plan, arguments);
+  const ExitCode code = write_results(*render, plan, std::get<ParsedScene>(parsed).scene_id, arguments);
   if (code == kOk && line.is_terminal()) print_summary(arguments, plan, *render);
   return code;
 }

@@ -67,6 +67,7 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   Plan& plan = out->plan;
   plan.left_out.insert(plan.left_out.end(), left_out.begin(), left_out.end());
   plan.warnings = find_open_glass(bodies, *out);
+  plan.stiffness = find_stiffness(*out);
   plan.lights = static_cast<int64_t>(out->lights.size());
   plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody));
   plan.compile_ms = watch.ms();

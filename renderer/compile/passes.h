@@ -39,6 +39,9 @@ double find_passed_on(const CompiledScene& scene);
 // finite. REQUIRES: scene.passed_on.
 double find_radiance_bound(const CompiledScene& scene);
 
+// REQUIRES: the plan's bounds.
+Stiffness find_stiffness(const CompiledScene& scene);
+
 // World-space box of a finite body, in the scene's normalised space.
 Box body_bounds(const CompiledBody& body);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "renderer/base/facet.h"
@@ -127,6 +128,30 @@ bool encloses(const Body& body) {
 }  // namespace
 
 Box body_bounds(const CompiledBody& body) { return bounds_in(body, body.world_from_local); }
+
+Stiffness find_stiffness(const CompiledScene& scene) {
+  Stiffness out;
+  const Vec3 &low = scene.plan.bounds_min, &high = scene.plan.bounds_max;
+  out.extent = safe_length(high - low);
+  if (out.extent > 0.0) out.offset_ratio = safe_length(0.5 * low + 0.5 * high) / out.extent;
+  // Bodies of no size, as a mesh without triangles, have no ratio.
+  double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < scene.finite_bodies; ++i) {
+    const Box box = body_bounds(scene.bodies[i]);
+    const double size = safe_length(box.hi - box.lo);
+    if (!(size > 0.0)) continue;
+    largest = std::max(largest, size), smallest = std::min(smallest, size);
+  }
+  if (largest > 0.0) out.size_ratio = largest / smallest;
+  for (const CompiledMaterial& m : scene.materials) out.shininess = std::max(out.shininess, m.source.shininess);
+  double brightest = 0.0, dimmest = std::numeric_limits<double>::infinity();
+  for (const CompiledLight& light : scene.lights) {
+    const double intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    brightest = std::max(brightest, intensity), dimmest = std::min(dimmest, intensity);
+  }
+  if (brightest > 0.0 && dimmest > 0.0) out.intensity_ratio = brightest / dimmest;
+  return out;
+}
 
 void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
   std::map<const TriMesh*, std::shared_ptr<const CompiledMesh>> compiled;

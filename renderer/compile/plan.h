@@ -59,6 +59,15 @@ struct LeftOut {
   std::string why;   // a sentence
 };
 
+// How far the scene's numbers lie apart: where it is hard on floating point.
+struct Stiffness {
+  double extent = 0.0;           // diagonal of the finite bodies' box, scene units
+  double offset_ratio = 0.0;     // how far their middle lies from the origin, over the extent
+  double size_ratio = 1.0;       // the largest body's diagonal over the smallest one's
+  double shininess = 0.0;        // the largest exponent
+  double intensity_ratio = 1.0;  // the brightest light over the dimmest
+};
+
 struct Plan {
   FeatureSet features;  // what the kernel does
   std::string kernel;   // the variant's name, e.g. "mirrors+shadows"
@@ -68,6 +77,7 @@ struct Plan {
   int64_t bodies = 0, triangles_stored = 0, triangles_instanced = 0, lights = 0;
   int64_t memory_bytes = 0;               // of the compiled scene
   Vec3 bounds_min{0.0}, bounds_max{0.0};  // of the finite bodies, scene units
+  Stiffness stiffness;
   double compile_ms = 0.0, plan_ms = 0.0;
 };
 

@@ -24,6 +24,12 @@ std::string plan_json(const Plan& plan) {
                     {"triangles", {{"stored", plan.triangles_stored}, {"instanced", plan.triangles_instanced}}},
                     {"memory_bytes", plan.memory_bytes},
                     {"bounds", {{"min", vec(plan.bounds_min)}, {"max", vec(plan.bounds_max)}}},
+                    {"stiffness",
+                     {{"extent", plan.stiffness.extent},
+                      {"offset_ratio", plan.stiffness.offset_ratio},
+                      {"size_ratio", plan.stiffness.size_ratio},
+                      {"n_max", plan.stiffness.shininess},
+                      {"intensity_ratio", plan.stiffness.intensity_ratio}}},
                     {"compile_ms", plan.compile_ms},
                     {"plan_ms", plan.plan_ms}};
   return out.dump();

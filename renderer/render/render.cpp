@@ -54,8 +54,9 @@ class TileRender final : public Render, public WorkSource {
     report_.points = before_.points;
     report_.passes = before_.passes;
     report_.threads = pool.thread_count();
+    report_.seed = plan_.view.render.seed;
     // Kernels of local light alone do not look at what surfaces would pass on.
-    if (plan_.view.render.max_depth == 0) untraced_weight_ = scene_->passed_on;
+    if (plan_.view.render.max_depth == 0) tally_.untraced_weight = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
     if (source_) {
       open_copy();

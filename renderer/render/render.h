@@ -53,6 +53,7 @@ struct RenderReport {
   bool adaptive = false;
   std::vector<double> passes;  // what passes: [...] replays, with the same adaptive
   int threads = 0;
+  uint32_t seed = 0;
 };
 
 struct RenderProgress {
@@ -107,8 +108,15 @@ class Render {
   virtual bool wait_ms(double ms) const = 0;
 };
 
+// What the render cannot know of itself. Empty: not known, null in the report.
+struct ReportIdentity {
+  std::string version, scene_id, image_hash;
+};
+// SHA-256 of the linear image: floats as they lie in memory, little-endian, RGB, row by row.
+std::string image_hash(const Image& image);
+
 // The report as a JSON object, and its curve of error against time as an SVG document.
-std::string report_json(const RenderReport& report, const Plan& plan);
+std::string report_json(const RenderReport& report, const Plan& plan, const ReportIdentity& identity = {});
 std::string report_svg(const RenderReport& report);
 
 }  // namespace tilelight

@@ -1,12 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/hash.h"
 #include "renderer/render/render.h"
 
 namespace tilelight {
 
-std::string report_json(const RenderReport& report, const Plan& plan) {
-  using Json = nlohmann::ordered_json;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kByteRmse = 1.1321e-3;  // of rounding to 8 bits: 1 / (255 sqrt 12)
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+// Where the error of the last point comes from, rmse but for the bound.
+Json components_json(const ReportPoint& p) {
+  return {{"sampling", p.error.is_known ? Json(p.error.rmse) : Json(nullptr)},
+          {"truncation_bound", p.truncation_bound < 0.0 ? Json(nullptr) : Json(p.truncation_bound)},
+          {"quantisation", kByteRmse}};
+}
+
+// 1 / (mse s).
+Json efficiency_json(const ReportPoint& p) {
+  const double cost = p.error.rmse * p.error.rmse * 1e-3 * p.elapsed_ms;
+  return p.error.is_known && cost > 0.0 ? Json(1.0 / cost) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string image_hash(const Image& image) {
+  return sha256_hex({reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size() * sizeof(float)});
+}
+
+std::string report_json(const RenderReport& report, const Plan& plan, const ReportIdentity& identity) {
   Json points = Json::array();
   for (const ReportPoint& p : report.points) {
     const auto known = [&p](double value) { return p.error.is_known ? Json(value) : Json(nullptr); };
@@ -28,8 +55,20 @@ std::string report_json(const RenderReport& report, const Plan& plan) {
                       {"nonfinite", p.nonfinite},
                       {"lights_on_hits", p.lights_on_hits}});
   }
-  const Json out = {{"points", points},        {"stop", report.stop},       {"adaptive", report.adaptive},
-                    {"passes", report.passes}, {"threads", report.threads}, {"kernel", plan.kernel},
+  const bool has_points = !report.points.empty();
+  const Json out = {{"points", points},
+                    {"stop", report.stop},
+                    {"adaptive", report.adaptive},
+                    {"passes", report.passes},
+                    {"components", has_points ? components_json(report.points.back()) : Json(nullptr)},
+                    {"efficiency", has_points ? efficiency_json(report.points.back()) : Json(nullptr)},
+                    {"stiffness", Json::parse(plan_json(plan)).at("stiffness")},
+                    {"image_hash", text_or_null(identity.image_hash)},
+                    {"version", text_or_null(identity.version)},
+                    {"scene_sha256", text_or_null(identity.scene_id)},
+                    {"seed", report.seed},
+                    {"threads", report.threads},
+                    {"kernel", plan.kernel},
                     {"isa", plan.isa}};
   return out.dump();
 }

@@ -140,7 +140,10 @@ Reply get_render_report(Services& services, const Request& request) {
   } else if (*type == "image/svg+xml") {
     response.body = report_svg(report);
   } else {
-    response.body = report_json(report, record->status.plan.value_or(Plan{}));
+    const WorkPtr work = services.jobs.work(request.args[0]);
+    const bool is_final = work && record->status.state == JobState::done;
+    const auto image = is_final ? work->picture().image : nullptr;
+    response.body = report_document(*record, image.get());
   }
   response.with("Vary", "Accept").with("Cache-Control", "no-cache");
   return response;

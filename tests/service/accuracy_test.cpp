@@ -45,6 +45,27 @@ TEST_F(Accuracy, ARenderStopsOnceItsErrorIsAsAsked) {
   EXPECT_EQ(report.at("points").at(0).at("rmse"), nullptr) << "of one sample nothing is known";
 }
 
+// The same scene by the library, without a server, has the image whose hash the server tells.
+TEST_F(Accuracy, TheFinalReportSaysWhatWasRenderedAndByWhat) {
+  const std::string body = ball(R"("samples": 4, "seed": 7)");
+  const Json job = render(body);
+  const Json report = Json::parse(service_.get("/v1/renders/" + job.at("id").get<std::string>() + "/report").body);
+  const auto parsed = parse_scene(body, Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(2);
+  const auto compiled = compile_scene(parsed->scene, pool);
+  const auto render = Render::start(pool, Priority::normal, compiled, plan_view(*compiled, parsed->view));
+  ASSERT_TRUE(render->wait_ms(1e12));
+  EXPECT_EQ(report.at("image_hash"), image_hash(*render->image()));
+  EXPECT_EQ(report.at("scene_sha256"), parsed->scene_id);
+  EXPECT_EQ(report.at("seed"), 7);
+  EXPECT_EQ(report.at("version").get<std::string>().substr(0, 2), "0.");
+  const Json& last = report.at("points").back();
+  const double rmse = last.at("rmse"), seconds = 1e-3 * last.at("elapsed_ms").get<double>();
+  EXPECT_NEAR(report.at("efficiency").get<double>() * rmse * rmse * seconds, 1.0, 1e-9);
+  EXPECT_EQ(report.at("components").at("sampling"), rmse);
+}
+
 TEST_F(Accuracy, TheReportReplaysItExactly) {
   const Json job = render(ball(R"("rmse": 0.004)"));
   const Json report = job.at("report");

@@ -234,6 +234,19 @@ TEST_F(Compile, TheRadianceBoundIsTheSumOfTheGeometricSeries) {
   EXPECT_LT(compile_scene(scene, pool_)->radiance_bound, 0.0);  // none is finite
 }
 
+TEST_F(Compile, TellsHowFarTheNumbersOfASceneLieApart) {
+  Scene scene = one_sphere();
+  scene.objects = {sphere_at({1000, 0, 0}, 2.0), sphere_at({1000, 3, 0}, 0.002)};
+  scene.materials[0].shininess = 5e4;
+  scene.lights = {sun(6.0), sun(0.25)};
+  const Stiffness s = scene_plan(*compile_scene(scene, pool_)).stiffness;
+  EXPECT_NEAR(s.extent, std::sqrt(16.0 + 5.002 * 5.002 + 16.0), 1e-5);  // x and z of the larger, y from -2 to 3.002
+  EXPECT_NEAR(s.offset_ratio, std::sqrt(1e6 + 0.501 * 0.501) / s.extent, 1e-4);
+  EXPECT_NEAR(s.size_ratio, 1000.0, 1e-3);
+  EXPECT_EQ(s.shininess, 5e4);
+  EXPECT_NEAR(s.intensity_ratio, 24.0, 1e-12);
+}
+
 TEST_F(Compile, AnUpVectorAlongTheViewFallsBackToAnOrthonormalFrame) {
   Camera camera;
   camera.position = {0, 5, 0};
