@@ -34,7 +34,7 @@ ExitCode run_plan(const SceneText& source, const PlanArguments& arguments);
 struct ReportArguments {
   std::string output;  // a folder, made if it is not there
   ViewOptions view;    // of it width and height; without them a smaller picture than the scene's
-  int most_samples = 64;
+  int most_samples = 32;
   int rounds = 5;
   bool with_povray = false;
   int threads = 0;

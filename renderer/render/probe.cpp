@@ -61,7 +61,7 @@ int golden_stride(int count) {
 
 // One sample a cell, all over the image, until all are traced or the time is over.
 void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 20.0;
+  constexpr double kEnoughMs = 10.0;
   constexpr int kAtLeast = 8;
   const ViewPlan cells = in_cells(plan);
   const EyeMedia eye_media(scene, cells);
@@ -85,22 +85,19 @@ int place_in(int part, int parts, int places, uint64_t bits) {
   return static_cast<int>(first + static_cast<int64_t>(bits % static_cast<uint64_t>(end - first)));
 }
 
-// Small patches, each at a random place of its own part of the image. On a film of their own they stand side by side, a
-// cell for each: the view is shifted so that a patch sees what it would see in the image. All samples of a patch go as
-// one packet, so that they cost what they will cost in the render.
-void ask_patches(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 25.0, kPatchMs = 3.0;
-  constexpr int kEdgePx = 2, kAtLeast = 8, kMostPatches = 512;
+// Single pixels, each at a random place of its own part of the image. On a film of their own they stand side by side, a
+// cell for each: the view is shifted so that a pixel sees what it would see in the image. The samples of a pixel fill a
+// packet, so that they cost what they will cost in the render.
+void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
+  constexpr double kEnoughMs = 20.0, kSpotMs = 3.0;
+  constexpr int kAtLeast = 8, kMostSpots = 768;
   const ImageSpec& image = plan.view.image;
-  const int width = std::min(kEdgePx, image.width), height = std::min(kEdgePx, image.height);
-  const double samples = static_cast<double>(kProbeSamples) * width * height;
-  if (samples * probe.rays_per_sample * probe.ms_per_ray > kPatchMs) return;
+  if (kProbeSamples * probe.rays_per_sample * probe.ms_per_ray > kSpotMs) return;
 
-  const int places_x = image.width / width, places_y = image.height / height;
-  const double aspect = static_cast<double>(places_x) / places_y;
+  const double aspect = static_cast<double>(image.width) / image.height;
   const int columns =
-      std::clamp(static_cast<int>(std::lround(std::sqrt(kMostPatches * aspect))), 1, std::min(places_x, kMostPatches));
-  const int rows = std::clamp(kMostPatches / columns, 1, places_y);
+      std::clamp(static_cast<int>(std::lround(std::sqrt(kMostSpots * aspect))), 1, std::min(image.width, kMostSpots));
+  const int rows = std::clamp(kMostSpots / columns, 1, image.height);
   const int count = columns * rows, stride = golden_stride(count);
 
   ViewPlan shifted = plan;
@@ -114,21 +111,21 @@ void ask_patches(const CompiledScene& scene, const ViewPlan& plan, Probe& probe)
   for (int i = 0, part = 0; i < count && (i < kAtLeast || ms_since(start) < kEnoughMs);
        ++i, part = (part + stride) % count) {
     const uint64_t random = mix64(static_cast<uint64_t>(part));
-    const int x = width * place_in(part % columns, columns, places_x, random & 0xffff);
-    const int y = height * place_in(part / columns, rows, places_y, random >> 32 & 0xffff);
+    const int x = place_in(part % columns, columns, image.width, random & 0xffff);
+    const int y = place_in(part / columns, rows, image.height, random >> 32 & 0xffff);
     const int there = i * kCellPx;
     shifted.eye.corner =
         plan.eye.corner + static_cast<double>(x - there) * plan.eye.step_x + static_cast<double>(y) * plan.eye.step_y;
-    rays.push_back(trace(scene, shifted, eye_media, {there, 0, there + width, height}, &view, kProbeSamples));
+    rays.push_back(trace(scene, shifted, eye_media, {there, 0, there + 1, 1}, &view, kProbeSamples));
   }
   const int asked = static_cast<int>(rays.size());
   const double all_rays = std::accumulate(rays.begin(), rays.end(), 0.0);
   probe.ms_per_ray = (cpu_ms() - cpu_start) / all_rays;
-  if (asked == count) probe.rays_per_sample = all_rays / (asked * samples);
+  if (asked == count) probe.rays_per_sample = all_rays / (static_cast<double>(asked) * kProbeSamples);
   for (const int64_t r : rays) probe.costs.push_back(static_cast<double>(r) * asked / all_rays);
-  probe.image_part = static_cast<double>(asked) / (static_cast<double>(places_x) * places_y);
+  probe.image_part = static_cast<double>(asked) / (static_cast<double>(image.width) * image.height);
 
-  // What no patch covers is black in every sample, and differs in nothing.
+  // What no spot covers is black in every sample, and differs in nothing.
   std::fill(film.samples().begin(), film.samples().end(), kProbeSamples);
   ErrorMap map(film.width(), film.height(), image.exposure);
   Image means{film.width(), film.height(), std::vector<float>(static_cast<size_t>(film.width()) * film.height() * 3)};
@@ -139,7 +136,6 @@ void ask_patches(const CompiledScene& scene, const ViewPlan& plan, Probe& probe)
   probe.decay = map.decay();
   probe.variances = map.own_cell_variances();
   probe.variances.resize(static_cast<size_t>(asked));
-  for (double& variance : probe.variances) variance /= width * height;
 }
 
 }  // namespace
@@ -147,7 +143,7 @@ void ask_patches(const CompiledScene& scene, const ViewPlan& plan, Probe& probe)
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan) {
   Probe probe;
   ask_pixels(scene, plan, probe);
-  ask_patches(scene, plan, probe);
+  ask_spots(scene, plan, probe);
   return probe;
 }
 

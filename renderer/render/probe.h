@@ -12,13 +12,13 @@ namespace tilelight {
 
 struct Probe {
   double rays_per_sample = 0.0, ms_per_ray = 0.0;  // on one thread
-  // By patch, small ones all over the image with kProbeSamples samples a pixel; none where a sample is too dear.
-  std::vector<double> variances;  // mean over its pixels: of displayed - true, after so many samples
-  std::vector<double> costs;      // rays of a sample over the mean of all patches
+  // By spot, pixels all over the image with kProbeSamples samples each; none where a sample is too dear.
+  std::vector<double> variances;  // of displayed - true, after so many samples
+  std::vector<double> costs;      // rays of a sample over the mean of all spots
   double decay = 1.0;             // of a variance, when samples are doubled
-  double image_part = 0.0;        // of the image that the patches cover
+  double image_part = 0.0;        // of the image that the spots cover
 };
-inline constexpr uint32_t kProbeSamples = 8;
+inline constexpr uint32_t kProbeSamples = 16;
 
 // On the calling thread: most take some 30 ms, and a scene whose samples are very dear eight of them at least.
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan);

@@ -44,7 +44,8 @@ std::vector<OracleRow> ask_oracle(const Studio& studio, const std::shared_ptr<co
     row.rule = rule.name;
     row.predicted = predict_cost(*scene, plan_view(*scene, rule.view), studio.pool().thread_count());
     const auto drawings = studio.draw_rounds(scene, rule.view);
-    StudyRun run = run_of(drawings);
+    StudyRun run;
+    time_run(run, drawings);
     judge(run, drawings, truth, view.image.exposure, studio.pool());
     row.elapsed_ms = run.time_ms, row.rmse = run.error.rmse;
     row.is_time_inside =

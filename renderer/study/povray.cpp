@@ -70,20 +70,24 @@ void add_povray(const Studio& studio, const Scene& scene, const View& view, cons
   std::ofstream(folder.file("scene.pov")) << pov.text;
   StudySeries series{
       .name = "POV-Ray", .method = "POV-Ray", .shading = "phong", .sampling = "grid", .precision = "double"};
-  for (const int side : {1, 2, 3, 4, 6, 8}) {
-    std::vector<Drawing> drawings;
-    for (int round = 0; round < studio.options().rounds; ++round) {
+  const std::vector<int> sides{1, 2, 3, 4, 6, 8};
+  std::vector<std::vector<Drawing>> drawings(sides.size());
+  for (int round = 0; round < studio.options().rounds; ++round) {
+    for (size_t i = 0; i < sides.size(); ++i) {
       studio.stop_if_cancelled();
-      drawings.push_back(draw(folder, view.image, studio.pool().thread_count(), side));
+      drawings[i].push_back(draw(folder, view.image, studio.pool().thread_count(), sides[i]));
     }
-    StudyRun run = run_of(drawings);
-    run.told_rmse = -1.0;
-    run.setting = side == 1 ? "1 sample" : std::to_string(side) + " x " + std::to_string(side) + " where pixels differ";
-    judge(run, drawings, truth, view.image.exposure, studio.pool());
+  }
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const std::string side = std::to_string(sides[i]);
+    StudyRun run;
+    run.setting = sides[i] == 1 ? "1 sample" : side + " x " + side + " where pixels differ";
+    time_run(run, drawings[i]);
+    judge(run, drawings[i], truth, view.image.exposure, studio.pool());
     series.runs.push_back(std::move(run));
   }
   study.series.push_back(std::move(series));
-  constexpr int kFinest = 24;
+  constexpr int kFinest = 12;
   const Image finest = *draw(folder, view.image, studio.pool().thread_count(), kFinest).image;
   std::ostringstream note;
   note << "POV-Ray's finest picture (" << kFinest << " x " << kFinest << " samples) is "

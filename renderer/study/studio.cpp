@@ -50,8 +50,7 @@ View with_samples(View view, int samples, bool is_adaptive) {
   return view;
 }
 
-StudyRun run_of(const std::vector<Drawing>& drawings) {
-  StudyRun run;
+void time_run(StudyRun& run, const std::vector<Drawing>& drawings) {
   std::vector<double> times, cpu_times;
   double told = 0.0;
   bool is_told = true;
@@ -65,7 +64,6 @@ StudyRun run_of(const std::vector<Drawing>& drawings) {
   run.time_ms = median(times), run.cpu_ms = median(cpu_times);
   run.time_low_ms = *std::min_element(times.begin(), times.end());
   run.time_high_ms = *std::max_element(times.begin(), times.end());
-  return run;
 }
 
 void judge(StudyRun& run, const std::vector<Drawing>& drawings, const Image& truth, double exposure, TilePool& pool) {

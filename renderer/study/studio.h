@@ -47,7 +47,7 @@ class Studio {
 View with_samples(View view, int samples, bool is_adaptive);
 
 // What the rounds' times and tellings come to. REQUIRES: drawings is not empty.
-StudyRun run_of(const std::vector<Drawing>& drawings);
+void time_run(StudyRun& run, const std::vector<Drawing>& drawings);
 // The same drawings beside the truth, their errors on the pool.
 void judge(StudyRun& run, const std::vector<Drawing>& drawings, const Image& truth, double exposure, TilePool& pool);
 

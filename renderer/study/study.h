@@ -18,7 +18,7 @@
 namespace tilelight {
 
 struct StudyOptions {
-  int most_samples = 64;  // of the finest run, a pixel: a power of two from 8 on
+  int most_samples = 32;  // of the finest run, a pixel: a power of two from 8 on
   int rounds = 5;         // of every run, each with a seed of its own
   bool with_povray = false;
   // What is being done, and which part of the whole is done; by the calling thread.
