@@ -22,7 +22,7 @@ constexpr double kModelDeviation = 0.15;  // of the error, beside the chance of 
 // Of the variance, what does not lie where a probe shows it: there samples that go where the error is do not find it.
 constexpr double kHidden = 0.05;
 // Samples that go where the error is, in short passes over scattered cells, cost more than those for all.
-constexpr double kSpentPrice = 1.4;
+constexpr double kSpentPrice = 1.8;
 constexpr double kNormal95 = 1.96;
 constexpr double kReporting = 1.03;  // time with the error told over time without
 constexpr double kToldHigh = 1.1;    // the upper end of what is told over the error, in large pictures
@@ -172,6 +172,7 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
   if (spec.time_ms)
     out.elapsed_high_ms = std::max(out.elapsed_high_ms, std::min(*spec.time_ms, 1.05 * out.elapsed_high_ms));
   out.rmse_low *= 0.75;
+  out.rmse_high *= 1.1;
   out.probe_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

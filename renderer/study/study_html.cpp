@@ -59,7 +59,7 @@ th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid #e4e
 th { text-align: right; font-weight: 600; border-bottom: 2px solid #888; } th:first-child, td:first-child { text-align: left; }
 tr.front td { background: #eef6ee; } tr.miss td { background: #fbeeee; } tr.own td { font-weight: 600; }
 .wide { overflow-x: auto; } svg { max-width: 100%; height: auto; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 1rem; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); gap: 1rem; }
 figure { margin: 0; } img { width: 100%; image-rendering: pixelated; background: #000; } figcaption { font-size: 13px; color: #555; }
 )";
 
