@@ -21,6 +21,10 @@ struct Standing {
   double rmse = std::numeric_limits<double>::infinity();  // the upper end of the estimate
 };
 
+// A first pass that takes one pixel of every cell, where time is short: the picture in a sixteenth of its pixels, in
+// case the time does not suffice for all. It is no part of the film. Samples a pixel, as passes count it.
+inline constexpr double kSketchSamples = 1.0 / 16.0;
+
 class PassSchedule {
  public:
   // before: passes that come first, whatever the rules. The rules speak of the whole.
@@ -30,15 +34,18 @@ class PassSchedule {
     // A pixel's; the mean over pixels where it is not for all alike. 0: the render is over.
     double samples = 0.0;
     bool for_all = true;  // every pixel takes as many; else they go where the error is
-    std::string stop;     // once it is over: "samples", "rmse", "time" or "passes"
+    bool is_sketch = false;
+    std::string stop;  // once it is over: "samples", "rmse", "time" or "passes"
   };
-  // The first pass always runs. The time rule cuts passes to what fits; those of a replay stay whole.
+  // The first pass always runs, by the time rule as a sketch. That rule cuts passes to what fits; those of a replay
+  // stay whole.
   Next next(const Standing& standing) const;
 
   // What the render takes in all, a pixel: by its rules on samples and, once the error is known, on rmse.
   double expected_samples(const Standing& standing) const;
 
  private:
+  Next pass_of(const Standing& standing, double samples) const;
   Next replay(const Standing& standing) const;  // REQUIRES: a pass of the replay is left
   bool is_for_all(const Standing& standing, double samples) const;
 

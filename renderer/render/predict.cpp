@@ -23,6 +23,7 @@ constexpr double kModelDeviation = 0.15;  // of the error, beside the chance of 
 constexpr double kHidden = 0.05;
 // Samples that go where the error is, in short passes over scattered cells, cost more than those for all.
 constexpr double kSpentPrice = 1.8;
+constexpr double kSketchPrice = 2.5;  // single pixels make no packets
 constexpr double kNormal95 = 1.96;
 constexpr double kReporting = 1.03;  // time with the error told over time without
 constexpr double kToldHigh = 1.1;    // the upper end of what is told over the error, in large pictures
@@ -57,14 +58,14 @@ class Model {
         standing.elapsed_ms = *time_ms_;  // a pass that runs over the limit does not count
         break;
       }
-      const double spp = mean_samples();
+      const double spp = next.is_sketch ? kSketchSamples : mean_samples();
       standing = {.passes = standing.passes + 1,
                   .spp = spp,
                   .elapsed_ms = standing.elapsed_ms + ms,
                   .ms_per_sample = ms / std::max(1e-9, spp - standing.spp),
                   .was_for_all = next.for_all,
                   .rmse = spp >= 2.0 && knows_errors() ? kToldHigh * rmse() : standing.rmse};
-      rmse_ = knows_errors() ? rmse() : -1.0;
+      rmse_ = knows_errors() && !next.is_sketch ? rmse() : -1.0;
     }
     return {standing.spp, standing.elapsed_ms, rmse_};
   }
@@ -90,6 +91,7 @@ class Model {
 
   // The time that the pass takes, ms.
   double take(const PassSchedule::Next& next) {
+    if (next.is_sketch) return kSketchPrice * kSketchSamples * ms_a_sample_;
     std::vector<uint32_t> targets = film_.samples();
     if (next.for_all || !knows_errors()) {
       for (uint32_t& samples : targets) samples += std::max(1u, static_cast<uint32_t>(next.samples));

@@ -13,7 +13,7 @@ struct CostPrediction {
   double spp = 0.0;         // samples a pixel, mean
   double mrays = 0.0;       // rays of all kinds, millions
   double cpu_ms = 0.0;      // on one thread
-  double elapsed_ms = 0.0;  // on `threads`; with a time_ms no more than that or the first pass
+  double elapsed_ms = 0.0;  // on `threads`; with a time_ms no more than that or a sketch
   double elapsed_low_ms = 0.0, elapsed_high_ms = 0.0;
   double rmse = -1.0;  // as ErrorSummary has it; < 0: not known, for a sample is too dear to try
   double rmse_low = 0.0, rmse_high = 0.0;

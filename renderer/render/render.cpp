@@ -11,6 +11,7 @@
 #include "renderer/base/standard_floats.h"
 #include "renderer/render/exposed_film.h"
 #include "renderer/render/pass_schedule.h"
+#include "renderer/render/sketch.h"
 #include "renderer/render/spend.h"
 #include "renderer/trace/isa.h"
 #include "renderer/trace/tile_job.h"
@@ -157,7 +158,7 @@ class TileRender final : public Render, public WorkSource {
   }
 
  private:
-  enum class Stage { copy, trace, measure, spread };
+  enum class Stage { copy, sketch, fill, trace, measure, spread };
 
   // What is read here is constant while items of the step run.
   void work_on(const TileRect& tile, TileCounts& counts) {
@@ -165,8 +166,14 @@ class TileRender final : public Render, public WorkSource {
       case Stage::copy:
         film_.copy(tile, source_->film);
         break;
+      case Stage::sketch:
+        trace_sketch(tile, counts);
+        break;
+      case Stage::fill:
+        sketch_->fill(tile, *next_image_);
+        break;
       case Stage::trace:
-        trace(tile, counts);
+        trace_tile(tile, counts);
         break;
       case Stage::measure:
         film_.resolve(tile, *next_image_);
@@ -178,8 +185,13 @@ class TileRender final : public Render, public WorkSource {
     }
   }
 
-  void trace(const TileRect& tile, TileCounts& counts) {
-    TileView view = film_.view();
+  void trace_sketch(const TileRect& tile, TileCounts& counts) {
+    std::vector<CellWork> pixels;
+    for_each_cell(tile, [&](const TileRect& cell) { pixels.push_back({Sketch::pixel_of(cell)}); });
+    trace(pixels, sketch_->view(), counts);
+  }
+
+  void trace_tile(const TileRect& tile, TileCounts& counts) {
     std::vector<CellWork> cells;
     for_each_cell(tile, [&](const TileRect& cell) {
       const size_t i = film_.cell_at(cell.x0, cell.y0);
@@ -187,6 +199,10 @@ class TileRender final : public Render, public WorkSource {
       const uint32_t last = std::min(targets_[i], first + step_samples_);
       if (first < last) cells.push_back({cell, first, last - first});
     });
+    trace(cells, film_.view(), counts);
+  }
+
+  void trace(const std::vector<CellWork>& cells, TileView view, TileCounts& counts) {
     kernel_({.scene = scene_.get(),
              .plan = &plan_,
              .eye_media = &eye_media_,
@@ -259,18 +275,22 @@ class TileRender final : public Render, public WorkSource {
         film_.samples() = source_->film.samples();
         source_ = nullptr;
         return go_on();
-      case Stage::trace: {
+      case Stage::sketch:
+        next_image_ = new_image();
+        break;
+      case Stage::fill:
+        sketch_ = nullptr;
+        return finish_pass(kSketchSamples, {}, std::vector<float>(static_cast<size_t>(width_) * height_, 1.0f));
+      case Stage::trace:
         if (step_first_ + step_samples_ < pass_length_) break;
         film_.samples() = targets_;
-        next_image_ = std::make_shared<Image>(
-            Image{width_, height_, std::vector<float>(static_cast<size_t>(width_) * height_ * 3)});
+        next_image_ = new_image();
         break;
-      }
       case Stage::measure:
         error_map_.pool(film_);
         break;
       case Stage::spread:
-        return finish_pass();
+        return finish_pass(samples_a_pixel(), error_map_.summary(), error_map_.bounds());
     }
     const std::lock_guard lock(mutex_);
     if (stage_ == Stage::trace && step_first_ + step_samples_ < pass_length_) {
@@ -278,9 +298,15 @@ class TileRender final : public Render, public WorkSource {
       item_ms_per_sample_ = step_ms * report_.threads / tiles_ / step_samples_;
       open_step(Stage::trace, step_first_ + step_samples_);
     } else {
-      open_step(stage_ == Stage::trace ? Stage::measure : Stage::spread, 0);
+      open_step(after(stage_), 0);
     }
     return leave(Then::wake);
+  }
+
+  // The step that comes after a whole one, in a pass.
+  static Stage after(Stage stage) {
+    if (stage == Stage::sketch) return Stage::fill;
+    return stage == Stage::trace ? Stage::measure : Stage::spread;
   }
 
   // REQUIRES: the render's only item in flight is the caller's.
@@ -292,10 +318,13 @@ class TileRender final : public Render, public WorkSource {
     return Then::announce_end;
   }
 
-  Then finish_pass() {
-    const ErrorSummary error = error_map_.summary();
-    auto error_bounds = std::make_shared<const std::vector<float>>(error_map_.bounds());
-    const double spp = samples_a_pixel();
+  std::shared_ptr<Image> new_image() const {
+    return std::make_shared<Image>(
+        Image{width_, height_, std::vector<float>(static_cast<size_t>(width_) * height_ * 3)});
+  }
+
+  Then finish_pass(double spp, const ErrorSummary& error, std::vector<float> bounds) {
+    auto error_bounds = std::make_shared<const std::vector<float>>(std::move(bounds));
     {
       const std::lock_guard lock(mutex_);
       const double elapsed = counted_ms();
@@ -368,7 +397,17 @@ class TileRender final : public Render, public WorkSource {
   // REQUIRES: mutex_. Since it began to add to what was there.
   double counted_ms() const { return ms_between(counted_from_, Clock::now()); }
 
+  void open_sketch() {
+    sketch_ = std::make_unique<Sketch>(width_, height_);
+    const std::lock_guard lock(mutex_);
+    pass_samples_ = kSketchSamples;
+    is_for_all_ = true;
+    pass_length_ = 1;
+    open_step(Stage::sketch, 0);
+  }
+
   void open_pass(const PassSchedule::Next& next) {
+    if (next.is_sketch) return open_sketch();
     if (next.for_all) {
       targets_ = film_.samples();
       for (uint32_t& samples : targets_) samples += static_cast<uint32_t>(next.samples);
@@ -460,6 +499,7 @@ class TileRender final : public Render, public WorkSource {
   const std::shared_ptr<ExposedFilm> exposed_;
   Film& film_ = exposed_->film;
   ErrorMap& error_map_ = exposed_->error_map;
+  std::unique_ptr<Sketch> sketch_;     // while that is the pass in work
   std::shared_ptr<Image> next_image_;  // of the pass in work
   std::vector<uint32_t> targets_;      // by cell: its samples after the pass in work
 

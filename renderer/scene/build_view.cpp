@@ -72,10 +72,13 @@ void build_stop_rules(Value value, RenderSpec& render, const Limits& limits, Pro
     } else {
       render.samples = static_cast<int>(std::ceil(sum));
     }
-    if (render.passes[0] != std::floor(render.passes[0])) {
+    // 1/16 is a sketch, which no pixel counts; the first pass after it is the first of the film.
+    const bool has_sketch = render.passes[0] == 1.0 / 16.0;
+    const double first = render.passes[has_sketch && render.passes.size() > 1 ? 1 : 0];
+    if (first != std::floor(first) && !(has_sketch && render.passes.size() == 1)) {
       problems.add(passes, {"fractional_first_pass",
                             "found a fraction of a sample in the first pass; allowed: a whole number, for every pixel "
-                            "takes as many",
+                            "takes as many, or 1/16, for a sketch, and then a whole number",
                             {},
                             ""});
     }

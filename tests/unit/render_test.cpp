@@ -254,6 +254,36 @@ TEST(Render, TheTimeRuleEndsWithTheBestImageSoFar) {
   EXPECT_EQ(replay->image()->rgb, render->image()->rgb);
 }
 
+// One pixel of every cell has what one sample a pixel gives it, to the bit, and the passes after a sketch know nothing
+// of it.
+TEST(Render, ASketchIsThePictureInASixteenthOfItsPixels) {
+  TilePool pool(2);
+  Prepared p = prepare(pool);
+  p.view.image.width = 75, p.view.image.height = 42;  // no whole number of cells
+  const auto draw = [&](const std::vector<double>& passes) {
+    p.view.render.passes = passes;
+    p.view.render.samples = 4;
+    const auto render = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, p.view));
+    EXPECT_TRUE(render->wait_ms(1e12));
+    return render;
+  };
+  const auto sketch = draw({kSketchSamples}), whole = draw({1.0});
+  const Image &rough = *sketch->image(), &fine = *whole->image();
+  int same = 0;
+  for (int y = 1; y < 42; y += 4) {
+    for (int x = 1; x < 75; x += 4) {
+      const size_t at = static_cast<size_t>(3 * (75 * y + x));
+      same += std::equal(&rough.rgb[at], &rough.rgb[at] + 3, &fine.rgb[at]);
+    }
+  }
+  EXPECT_EQ(same, 11 * 19);
+  const ReportPoint point = sketch->report().points.back();
+  EXPECT_EQ(point.rays.primary, 11 * 19);
+  EXPECT_EQ(point.spp, kSketchSamples);
+  EXPECT_FALSE(point.error.is_known);
+  EXPECT_EQ(draw({kSketchSamples, 1.0, 1.0})->image()->rgb, draw({1.0, 1.0})->image()->rgb);
+}
+
 TEST(Render, CountsItsRaysAndBoundsWhatItLeftUntraced) {
   // Two facing mirrors of reflection 1/2 and depth 3: 1/16 of the light is never followed.
   constexpr const char* kMirrors = R"({"image": {"width": 8, "height": 8}, "lights": [], "ambient": 1,
@@ -310,7 +340,7 @@ TEST(PredictCost, ForetellsTheRaysOfTheRender) {
 
   p.view.render.time_ms = 1e-3;
   const CostPrediction cut = predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
-  EXPECT_NEAR(cut.mrays / cost.mrays, 0.25, 0.05) << "the first of four samples is always taken";
+  EXPECT_NEAR(cut.mrays / cost.mrays, 1.0 / 64.0, 1e-3) << "of four samples a pixel, one in a pixel of sixteen";
 }
 
 TEST(PredictCost, HoldsForOnePixelAndForAnImageOfOneRow) {
@@ -365,7 +395,10 @@ TEST(PassSchedule, CutsAPassToTheTimeThatIsLeft) {
   spec.samples = 1000;
   spec.time_ms = 100.0;
   const PassSchedule schedule(spec);
-  EXPECT_EQ(schedule.next({}).samples, 1);
+  EXPECT_TRUE(schedule.next({}).is_sketch);
+  const Standing sketched{.passes = 1, .spp = kSketchSamples, .elapsed_ms = 20.0, .ms_per_sample = 320.0};
+  EXPECT_EQ(schedule.next(sketched).samples, 1) << "it may yet come in time";
+  EXPECT_EQ(schedule.next({.passes = 1, .spp = kSketchSamples, .elapsed_ms = 101.0}).stop, "time");
   const auto cut = schedule.next({.passes = 5, .spp = 16, .elapsed_ms = 60.0, .ms_per_sample = 4.0});
   EXPECT_NEAR(cut.samples, 3.5, 0.1) << "where the error is, a sample may be dearer than those before";
   EXPECT_FALSE(cut.for_all);

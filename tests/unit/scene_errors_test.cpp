@@ -157,6 +157,8 @@ std::vector<Bad> bad_documents() {
       {"tessellate", with(R"("render": {"tessellate": true})"), "not_in_this_release", "/render/tessellate"},
       {"rmse", with(R"("render": {"rmse": 0})"), "out_of_range", "/render/rmse"},
       {"half_a_pass", with(R"("render": {"passes": [0.5, 1]})"), "fractional_first_pass", "/render/passes"},
+      {"half_a_pass_after_a_sketch", with(R"("render": {"passes": [0.0625, 0.5]})"), "fractional_first_pass",
+       "/render/passes"},
       {"no_pass", with(R"("render": {"passes": [1, 0]})"), "out_of_range", "/render/passes/1"},
       {"negative_k", with(R"("attenuation": {"k": -1})"), "out_of_range", "/attenuation/k"},
       {"light_without_place", with(R"("lights": [{"type": "point"}])"), "missing_key", "/lights/0"},
