@@ -10,8 +10,6 @@
 namespace tilelight {
 namespace {
 
-// The variance of a mean is multiplied by this when its samples are doubled: n^-1.5 where an edge crosses the pixel.
-constexpr double kEdgeDecay = 0.35355339059327373;
 constexpr double kNormal95 = 1.96;
 constexpr float kConverged = static_cast<float>(2.0 / 255.0 / kNormal95);
 
@@ -31,8 +29,9 @@ class Curve {
       knots_[static_cast<size_t>(i)] = static_cast<float>(srgb_from_linear(static_cast<double>(i) / kPieces));
     knots_[kPieces + 1] = knots_[kPieces];
   }
-  float operator()(float linear) const {
-    const float at = std::clamp(linear, 0.0f, 1.0f) * kPieces;
+  float operator()(double linear) const {
+    // A comparison that NaN fails: then it is black.
+    const float at = linear > 0.0 ? static_cast<float>(std::min(linear, 1.0)) * kPieces : 0.0f;
     const int piece = static_cast<int>(at);
     const float* knot = knots_.data() + piece;
     return knot[0] + (at - static_cast<float>(piece)) * (knot[1] - knot[0]);
@@ -124,7 +123,7 @@ std::array<Row, 3> differences(const SamplePlanes& planes, size_t first, size_t 
 ErrorMap::ErrorMap(int width, int height, double exposure_stops)
     : width_(width),
       height_(height),
-      exposure_(static_cast<float>(elementary::exp2(exposure_stops))),
+      exposure_(elementary::exp2(exposure_stops)),
       own_(static_cast<size_t>(width) * height),
       shown_(own_.size() * 3),
       levels_(static_cast<size_t>(tile_count(width, height, kCellPx))),
@@ -148,15 +147,18 @@ void ErrorMap::measure(const Film& film, const Image& image, const TileRect& par
       std::array<Row, kLevels> levels = differences(planes, first, count, *rule, variance);
       Row own{};
       for (size_t i = 0; i < count; ++i) {
-        const float mean = exposure_ * image.rgb[first + i], middle = curve(mean);
+        const double mean = image.rgb[first + i];
+        const float middle = curve(exposure_ * mean);
         shown_[first + i] = static_cast<uint8_t>(255.0f * middle + 0.5f);
         if (!(variance[i] > 0.0f)) continue;
         // From linear to displayed by how far the curve goes over the mean's uncertainty, if samples were independent:
         // near black it goes down much farther than up.
-        const float reach = std::max(exposure_ * std::sqrt(rule->deviation2 * variance[i]), 0x1p-12f);
-        const float slope = exposure_ * std::max(middle - curve(mean - reach), curve(mean + reach) - middle) / reach;
-        for (size_t level = 0; level < kLevels; ++level) sums[level] += slope * slope * levels[level][i];
-        own[i] = slope * slope * variance[i];
+        const double reach = std::max(std::sqrt(double{rule->deviation2} * variance[i]), 0x1p-12 / exposure_);
+        const float change =
+            std::max(middle - curve(exposure_ * (mean - reach)), curve(exposure_ * (mean + reach)) - middle);
+        const float deviation = change * static_cast<float>(std::sqrt(double{variance[i]}) / reach);
+        own[i] = deviation * deviation;
+        for (size_t level = 0; level < kLevels; ++level) sums[level] += own[i] * (levels[level][i] / variance[i]);
       }
       for (int x = cell.x0; x < cell.x1; ++x) {
         const float* pixel = &own[static_cast<size_t>(x - cell.x0) * 3];

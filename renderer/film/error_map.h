@@ -13,6 +13,9 @@
 
 namespace tilelight {
 
+// What the variance of a mean is multiplied by when its samples are doubled, where an edge crosses the pixel: n^-1.5.
+inline constexpr double kEdgeDecay = 0.35355339059327373;
+
 // The error of a whole picture.
 struct ErrorSummary {
   bool is_known = false;         // false: nothing is, for some pixels have fewer than two samples
@@ -56,7 +59,7 @@ class ErrorMap {
   float contrast(int x, int y) const;
 
   int width_, height_;
-  float exposure_;  // a factor
+  double exposure_;  // a factor
   bool is_known_ = false;
   double decay_ = 1.0;
   float scale_ = 1.0f;          // of own_, once the decay is known

@@ -8,6 +8,7 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/base/standard_floats.h"
+#include "renderer/film/error_map.h"
 #include "renderer/film/film.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/render/probe.h"
@@ -30,6 +31,7 @@ constexpr double kToldHigh = 1.1;    // the upper end of what is told over the e
 
 struct Outcome {
   double spp = 0.0, elapsed_ms = 0.0, rmse = -1.0;
+  double mean_samples = 0.0;  // a pixel's, that have the rays of a mean one: where they go, samples may be dear
 };
 
 // A picture that is made of the probed spots alone; each is a cell that stands for its share of the image.
@@ -58,6 +60,7 @@ class Model {
         standing.elapsed_ms = *time_ms_;  // a pass that runs over the limit does not count
         break;
       }
+      counted_ += taken_;
       const double spp = next.is_sketch ? kSketchSamples : mean_samples();
       standing = {.passes = standing.passes + 1,
                   .spp = spp,
@@ -67,7 +70,7 @@ class Model {
                   .rmse = spp >= 2.0 && knows_errors() ? kToldHigh * rmse() : standing.rmse};
       rmse_ = knows_errors() && !next.is_sketch ? rmse() : -1.0;
     }
-    return {standing.spp, standing.elapsed_ms, rmse_};
+    return {standing.spp, standing.elapsed_ms, rmse_, counted_};
   }
 
  private:
@@ -89,9 +92,12 @@ class Model {
            static_cast<double>(film_.samples().size());
   }
 
-  // The time that the pass takes, ms.
+  // The time that the pass takes, ms; and its mean samples in taken_.
   double take(const PassSchedule::Next& next) {
-    if (next.is_sketch) return kSketchPrice * kSketchSamples * ms_a_sample_;
+    if (next.is_sketch) {
+      taken_ = kSketchSamples;
+      return kSketchPrice * taken_ * ms_a_sample_;
+    }
     std::vector<uint32_t> targets = film_.samples();
     if (next.for_all || !knows_errors()) {
       for (uint32_t& samples : targets) samples += std::max(1u, static_cast<uint32_t>(next.samples));
@@ -105,7 +111,8 @@ class Model {
     for (size_t i = 0; i < targets.size(); ++i)
       samples += (targets[i] - film_.samples()[i]) * (knows_errors() ? probe_.costs[i] : 1.0);
     film_.samples() = std::move(targets);
-    return price * ms_a_sample_ * samples / static_cast<double>(film_.samples().size());
+    taken_ = samples / static_cast<double>(film_.samples().size());
+    return price * ms_a_sample_ * taken_;
   }
 
   const Probe& probe_;
@@ -115,6 +122,7 @@ class Model {
   std::vector<double> variances_;
   Film film_;  // its counts of samples alone
   double rmse_ = -1.0;
+  double taken_ = 0.0, counted_ = 0.0;  // mean samples: of the pass in work, of those that count
 };
 
 // Among how many spots the variance is, were it the same in each of them.
@@ -134,7 +142,7 @@ double error_deviation(const Probe& probe) {
 
 // A decay that few spots tell is moved to that of an edge.
 double sober_decay(const Probe& probe) {
-  constexpr double kEdgeDecay = 0.35355339059327373, kFew = 8.0;
+  constexpr double kFew = 8.0;
   const double count = spots_that_count(probe);
   return elementary::exp((count * elementary::log(probe.decay) + kFew * elementary::log(kEdgeDecay)) / (count + kFew));
 }
@@ -154,7 +162,7 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
   const Outcome middle = Model(probe, spec, ms_a_sample, 1.0).run();
   CostPrediction out;
   out.spp = middle.spp;
-  out.mrays = 1e-6 * pixels * probe.rays_per_sample * middle.spp;
+  out.mrays = 1e-6 * pixels * probe.rays_per_sample * middle.mean_samples;
   out.elapsed_ms = out.elapsed_low_ms = out.elapsed_high_ms = middle.elapsed_ms;
   out.cpu_ms = middle.elapsed_ms * std::max(1, threads);
   out.rmse = out.rmse_low = out.rmse_high = middle.rmse;
@@ -173,8 +181,7 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
   out.elapsed_low_ms *= 0.95;
   if (spec.time_ms)
     out.elapsed_high_ms = std::max(out.elapsed_high_ms, std::min(*spec.time_ms, 1.05 * out.elapsed_high_ms));
-  out.rmse_low *= 0.75;
-  out.rmse_high *= 1.1;
+  if (out.rmse >= 0.0) out.rmse_low = 0.75 * std::max(0.0, out.rmse_low), out.rmse_high *= 1.1;
   out.probe_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

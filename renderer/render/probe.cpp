@@ -102,6 +102,8 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
 
   ViewPlan shifted = plan;
   const EyeMedia eye_media(scene, plan);
+  // What the image plane of an orthographic eye cuts is known by the place in the image, which moves.
+  const bool has_own_media = plan.eye.projection == Projection::orthographic && scene.media > 0;
   Film film(count * kCellPx, kCellPx);
   film.grow(kProbeSamples);
   TileView view = film.view();
@@ -116,7 +118,9 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
     const int there = i * kCellPx;
     shifted.eye.corner =
         plan.eye.corner + static_cast<double>(x - there) * plan.eye.step_x + static_cast<double>(y) * plan.eye.step_y;
-    rays.push_back(trace(scene, shifted, eye_media, {there, 0, there + 1, 1}, &view, kProbeSamples));
+    const TileRect spot{there, 0, there + 1, 1};
+    rays.push_back(has_own_media ? trace(scene, shifted, EyeMedia(scene, shifted), spot, &view, kProbeSamples)
+                                 : trace(scene, shifted, eye_media, spot, &view, kProbeSamples));
   }
   const int asked = static_cast<int>(rays.size());
   const double all_rays = std::accumulate(rays.begin(), rays.end(), 0.0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/render/spend.h"
 
+#include "renderer/film/error_map.h"
+
 namespace tilelight {
 namespace {
 
-constexpr uint32_t kMostSamples = 1u << 20;     // of a pixel
-constexpr double kDecay = 0.35355339059327373;  // of a variance, when its samples are doubled: n^-1.5
+constexpr uint32_t kMostSamples = 1u << 20;  // of a pixel
 
 // A doubling of a cell's samples.
 struct Offer {
@@ -29,7 +30,7 @@ std::vector<uint32_t> spend(const Film& film, const std::vector<float>& variance
     const int64_t cost = now * rect.pixel_count();
     const double worth = variances[cell] / static_cast<double>(cost);
     if (now <= kMostSamples / 2) offers.push_back({static_cast<float>(worth), cell, cost});
-    if (now <= kMostSamples / 4) offers.push_back({static_cast<float>(0.5 * kDecay * worth), cell, 2 * cost});
+    if (now <= kMostSamples / 4) offers.push_back({static_cast<float>(0.5 * kEdgeDecay * worth), cell, 2 * cost});
     ++cell;
   });
   std::sort(offers.begin(), offers.end());

@@ -61,13 +61,11 @@ bool follows_rays(const CompiledScene& scene, const View& view) {
   return features.has(Feature::reflection) || features.has(Feature::transmission);
 }
 
-// Of the first chess shape; none: the scene has none.
-std::optional<int> chess_detail(const Scene& scene) {
-  for (const Object& object : scene.objects) {
-    if (const auto* piece = std::get_if<ChessPieceShape>(&object.shape)) return piece->detail;
-    if (const auto* position = std::get_if<ChessPositionShape>(&object.shape)) return position->detail;
-  }
-  return std::nullopt;
+// By chess shape; 0 for other objects.
+int detail_of(const Object& object) {
+  if (const auto* piece = std::get_if<ChessPieceShape>(&object.shape)) return piece->detail;
+  if (const auto* position = std::get_if<ChessPositionShape>(&object.shape)) return position->detail;
+  return 0;
 }
 
 Scene with_detail(Scene scene, int detail) {
@@ -100,11 +98,18 @@ std::vector<KnobRow> turn_knobs(const Studio& studio, const Scene& scene, const 
     }
     compare(studio, "weight_cutoff", cutoff, settings, rows);
   }
-  if (const auto detail = chess_detail(scene)) {
+  std::set<int> details;
+  for (const Object& object : scene.objects)
+    if (const int detail = detail_of(object)) details.insert(detail);
+  if (!details.empty()) {
+    // Where chessmen differ in detail, no one value is the scene's.
+    const double of_scene_detail = details.size() == 1 ? *details.begin() : 0.0;
     std::vector<Setting> settings;
-    for (const int value : std::set<int>{8, 16, 32, 64, *detail, std::max(256, *detail)})
+    std::set<int> values{8, 16, 32, 64, std::max(256, *details.rbegin())};
+    values.merge(std::set<int>(details));
+    for (const int value : values)
       settings.push_back({static_cast<double>(value), compile_scene(with_detail(scene, value), studio.pool()), view});
-    compare(studio, "detail", *detail, settings, rows);
+    compare(studio, "detail", of_scene_detail, settings, rows);
   }
   return rows;
 }

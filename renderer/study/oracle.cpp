@@ -50,7 +50,8 @@ std::vector<OracleRow> ask_oracle(const Studio& studio, const std::shared_ptr<co
     row.elapsed_ms = run.time_ms, row.rmse = run.error.rmse;
     row.is_time_inside =
         row.predicted.elapsed_low_ms <= row.elapsed_ms && row.elapsed_ms <= row.predicted.elapsed_high_ms;
-    row.is_rmse_inside = row.predicted.rmse_low <= row.rmse && row.rmse <= row.predicted.rmse_high;
+    if (row.predicted.rmse >= 0.0)
+      row.is_rmse_inside = row.predicted.rmse_low <= row.rmse && row.rmse <= row.predicted.rmse_high;
     rows.push_back(std::move(row));
   }
   return rows;

@@ -55,16 +55,8 @@ Drawing draw(const TemporaryFolder& folder, const ImageSpec& image, int threads,
   return drawing;
 }
 
-}  // namespace
-
-void add_povray(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study) {
-  try {
-    if (run_child(kProgram, {"--version"}, "", {}, ChildErrors::in_output).status != 0)
-      throw std::runtime_error("it does not start");
-  } catch (const std::exception& error) {
-    study.notes.push_back(std::string("POV-Ray is not beside ours: ") + error.what() + " (Debian: apt install povray)");
-    return;
-  }
+// Throws std::exception where POV-Ray is not there, fails, or says something else than it used to.
+void draw_beside(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study) {
   const TemporaryFolder folder;
   const PovScene pov = pov_scene(scene, view);
   std::ofstream(folder.file("scene.pov")) << pov.text;
@@ -95,6 +87,17 @@ void add_povray(const Studio& studio, const Scene& scene, const View& view, cons
        << " off ours, rmse: no sampling brings its first curve below that.";
   study.notes.push_back(note.str());
   for (const std::string& difference : pov.differences) study.notes.push_back("In POV-Ray " + difference + ".");
+}
+
+}  // namespace
+
+void add_povray(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study) {
+  try {
+    draw_beside(studio, scene, view, truth, study);
+  } catch (const std::exception& error) {
+    studio.stop_if_cancelled();  // Ctrl-C reaches POV-Ray too
+    study.notes.push_back(std::string("POV-Ray is not beside ours (Debian: apt install povray): ") + error.what());
+  }
 }
 
 }  // namespace tilelight::study

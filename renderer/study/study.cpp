@@ -182,7 +182,7 @@ class Maker {
       std::vector<std::shared_ptr<const Image>> halves;
       for (const uint32_t half : {0u, 1u}) {
         studio_.tell("the reference, " + std::to_string(2 * samples) + " samples a pixel",
-                     0.3 + 0.2 * half + 0.05 * doublings);
+                     0.3 + 0.1 * half + 0.12 * doublings);
         View view = with_samples(view_, samples, false);
         view.render.seed = kReferenceSeed + half;
         halves.push_back(studio_.draw(compiled_, view).image);

@@ -74,7 +74,8 @@ struct OracleRow {
   std::string rule;
   CostPrediction predicted;
   double elapsed_ms = 0.0, rmse = 0.0;  // median of the rounds; the true rmse
-  bool is_time_inside = false, is_rmse_inside = false;
+  bool is_time_inside = false;
+  std::optional<bool> is_rmse_inside = {};  // none: no error was predicted
 };
 
 struct Study {
@@ -100,7 +101,7 @@ struct Study {
 std::optional<Study> make_study(const ParsedScene& parsed, const std::string& name, TilePool& pool,
                                 const StudyOptions& options);
 
-// The view that a study draws: as in the scene, in some ten thousand pixels.
+// The view that a study draws: as in the scene, in about 32,000 pixels.
 ImageSpec study_size(const ImageSpec& image);
 
 // Files of a study: all its numbers; its runs as rows; its curves; a page to look at, which shows the pictures

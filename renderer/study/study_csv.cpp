@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstdio>
 
 #include "renderer/study/study.h"
@@ -13,7 +14,9 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+// Empty where it is not finite: of equal pictures.
 std::string number(double v) {
+  if (!std::isfinite(v)) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", v);
   return text;

@@ -159,19 +159,20 @@ std::string components(const Study& study) {
 }
 
 std::string oracle(const Study& study) {
-  const auto count = [&](bool OracleRow::*flag) {
-    return std::count_if(study.oracle.begin(), study.oracle.end(), [flag](const OracleRow& row) { return row.*flag; });
-  };
+  int times = 0, errors = 0, known_errors = 0;
   Table table({"asked", "predicted ms", "95 %", "took ms", "predicted rmse", "95 %", "true rmse"});
   for (const OracleRow& row : study.oracle) {
     const CostPrediction& p = row.predicted;
+    const bool is_known = row.is_rmse_inside.has_value();
+    times += row.is_time_inside, known_errors += is_known, errors += row.is_rmse_inside.value_or(false);
     table.add({row.rule, ms(p.elapsed_ms), ms(p.elapsed_low_ms) + " to " + ms(p.elapsed_high_ms), ms(row.elapsed_ms),
-               error(p.rmse), error(p.rmse_low) + " to " + error(p.rmse_high), error(row.rmse)},
-              row.is_time_inside && row.is_rmse_inside ? "" : "miss");
+               is_known ? error(p.rmse) : "", is_known ? error(p.rmse_low) + " to " + error(p.rmse_high) : "",
+               error(row.rmse)},
+              row.is_time_inside && row.is_rmse_inside.value_or(true) ? "" : "miss");
   }
-  return "<p>Of " + std::to_string(study.oracle.size()) + " predictions, the time fell inside its interval in " +
-         std::to_string(count(&OracleRow::is_time_inside)) + ", the error in " +
-         std::to_string(count(&OracleRow::is_rmse_inside)) + ".</p>\n" + table.html();
+  return "<p>Of " + std::to_string(study.oracle.size()) +
+         " predictions of the time, the truth fell inside its interval in " + std::to_string(times) + "; of " +
+         std::to_string(known_errors) + " of the error, in " + std::to_string(errors) + ".</p>\n" + table.html();
 }
 
 }  // namespace
@@ -186,8 +187,11 @@ std::string study_html(const Study& study) {
          std::to_string(study.rounds) + " rounds, " + std::to_string(study.threads) + " threads, kernel " +
          escaped(study.kernel) + " on " + escaped(study.isa) +
          ". Errors are of displayed values, white is 1, to a reference of " + std::to_string(study.reference_samples) +
-         " samples a pixel whose own error is " + error(study.reference_rmse) + ", " +
-         text("%.0f %%", 100.0 * study.reference_rmse / study.least_rmse) + " of the best run's.</p>\n";
+         " samples a pixel whose own error is " + error(study.reference_rmse) +
+         (study.least_rmse > 0.0
+              ? text(", %.0f %%", 100.0 * study.reference_rmse / study.least_rmse) + " of the best run's"
+              : "") +
+         ".</p>\n";
   out += study_svg(study) + pictures(study);
   out +=
       "<h2>Runs</h2>\n<p>Median time, least and most in brackets. Green: no other run has less error in less time. "

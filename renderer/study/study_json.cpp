@@ -84,7 +84,7 @@ std::string study_json(const Study& study) {
                       {"elapsed_ms", row.elapsed_ms},
                       {"rmse", row.rmse},
                       {"time_inside", row.is_time_inside},
-                      {"rmse_inside", row.is_rmse_inside}});
+                      {"rmse_inside", row.is_rmse_inside ? Json(*row.is_rmse_inside) : Json(nullptr)}});
   }
   const Json out = {
       {"scene", study.scene_name},

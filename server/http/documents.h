@@ -12,8 +12,8 @@
 namespace tilelight::server {
 
 std::string job_json(const JobRecord& record);
-// image: the final one, whose hash is told; null: the report is of what is so far, or the image is no longer kept.
-std::string report_document(const JobRecord& record, const Image* image);
+// image_hash: empty where it is not known.
+std::string report_document(const JobRecord& record, const std::string& image_hash);
 std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [...]}, without plans and reports
 // The data of events, each on one line.
 std::string state_document(const WorkStatus& status);

@@ -70,8 +70,8 @@ Json brief_json(const JobRecord& record) {
 
 }  // namespace
 
-std::string report_document(const JobRecord& record, const Image* image) {
-  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image ? image_hash(*image) : std::string()};
+std::string report_document(const JobRecord& record, const std::string& image_hash) {
+  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
@@ -82,7 +82,7 @@ std::string job_json(const JobRecord& record) {
   out["warnings"] = warnings_json(record.warnings, status.plan ? &*status.plan : nullptr);
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
-  out["report"] = has_report ? Json::parse(report_document(record, nullptr)) : Json(nullptr);
+  out["report"] = has_report ? Json::parse(report_document(record, "")) : Json(nullptr);
   return text_of(out);
 }
 

@@ -141,9 +141,7 @@ Reply get_render_report(Services& services, const Request& request) {
     response.body = report_svg(report);
   } else {
     const WorkPtr work = services.jobs.work(request.args[0]);
-    const bool is_final = work && record->status.state == JobState::done;
-    const auto image = is_final ? work->picture().image : nullptr;
-    response.body = report_document(*record, image.get());
+    response.body = report_document(*record, work ? work->final_image_hash() : std::string());
   }
   response.with("Vary", "Accept").with("Cache-Control", "no-cache");
   return response;

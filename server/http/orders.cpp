@@ -50,7 +50,9 @@ namespace {
     auto image = wait_for_image(services, request, *work, *wish.image);
     if (!image || *image) return image;
   }
-  return std::optional<Response>(accepted_response(*services.jobs.find(record->id), request));
+  const auto now = services.jobs.find(record->id);
+  if (!now) return std::optional<Response>();  // deleted while this waited
+  return std::optional<Response>(accepted_response(*now, request));
 }
 
 // What a POST of a render wants, read from its headers. The claim: of the request's idempotency key, if it has one.

@@ -168,7 +168,7 @@ void add_if_met(const RenderSpec& rules, const RenderReport& report, const Limit
   const std::string met = rule_met(rules, report);
   const ReportPoint& last = report.points.back();
   const std::string spp = number_text(last.spp);
-  if (met == "samples" && rules.samples_implied) {
+  if (met == "samples" && (rules.samples_implied || last.spp >= limits.samples)) {
     errors.add(
         "", "already_reached",
         "the render has " + spp + " samples a pixel, of " + std::to_string(limits.samples) + " that it may have");
@@ -176,7 +176,8 @@ void add_if_met(const RenderSpec& rules, const RenderReport& report, const Limit
     errors.add("samples", "already_reached",
                "the render has " + spp + " samples a pixel, so " + std::to_string(*rules.samples) + " add nothing",
                {"over " + spp + ", up to " + std::to_string(limits.samples)},
-               "'samples' counts the whole picture: to add as many again, ask for " + number_text(2.0 * last.spp));
+               "'samples' counts the whole picture: to add as many again, ask for " +
+                   number_text(std::min<double>(2.0 * last.spp, limits.samples)));
   } else if (met == "rmse") {
     errors.add("rmse", "already_reached",
                "the error of the render is below " + number_text(last.error.high) + ", so " + number_text(*rules.rmse) +

@@ -9,7 +9,10 @@ void KeptFilms::add(const WorkPtr& work) {
   if (!work->is_refinable()) return;
   {
     const std::lock_guard lock(mutex_);
-    const auto is_same = [&](const Entry& entry) { return entry.work.lock() == work; };
+    // Without a share in it, which could be the last one.
+    const auto is_same = [&](const Entry& entry) {
+      return !entry.work.owner_before(work) && !work.owner_before(entry.work);
+    };
     if (std::none_of(entries_.begin(), entries_.end(), is_same)) entries_.push_back({work, clock_.mono_ms()});
   }
   drop_old();

@@ -98,6 +98,16 @@ Result<EncodedPtr> RenderWork::encode_here(ImageFormat format) {
   return future.get();
 }
 
+std::string RenderWork::final_image_hash() {
+  std::unique_lock lock(mutex_);
+  const auto image = picture_.image;
+  if (!image_hash_.empty() || !image || status_.state != JobState::done) return image_hash_;
+  lock.unlock();
+  std::string hash = image_hash(*image);
+  lock.lock();
+  return image_hash_ = std::move(hash);
+}
+
 void RenderWork::drop_image() {
   const std::lock_guard lock(mutex_);
   picture_ = {};
@@ -202,13 +212,15 @@ void RenderWork::take_result() {
 }
 
 void RenderWork::set_ended(JobState state, std::string error, int64_t finished_ms) {
+  Picture dropped;  // before the lock: memory is given back after it
+  std::shared_ptr<const ExposedFilm> dropped_film;
   {
     const std::lock_guard lock(mutex_);
     status_.state = state;
     status_.error = std::move(error);
     status_.finished_ms = finished_ms;
     status_.progress.eta_ms = state == JobState::done ? 0.0 : -1.0;
-    if (state != JobState::done) picture_ = {}, film_ = nullptr;
+    if (state != JobState::done) std::swap(dropped, picture_), std::swap(dropped_film, film_);
   }
   bump();
   notify_watchers();

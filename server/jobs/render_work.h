@@ -48,6 +48,9 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   // The same on this thread, which is one of the pool.
   Result<EncodedPtr> encode_here(ImageFormat format);
 
+  // image_hash() of the final image, worked out once; empty before, and where nobody asked before drop_image().
+  std::string final_image_hash();
+
   // Forgets the linear image; formats encoded so far stay.
   void drop_image();
   int64_t result_bytes() const;
@@ -96,7 +99,8 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   mutable std::condition_variable_any changed_;
   WorkStatus status_;  // progress and report are filled in from render_ while there is one
   std::shared_ptr<Render> render_;
-  Picture picture_;  // after the end
+  Picture picture_;
+  std::string image_hash_;  // after the end
   bool keeps_film_ = false;
   std::shared_ptr<const ExposedFilm> film_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;

@@ -254,6 +254,25 @@ TEST(Render, TheTimeRuleEndsWithTheBestImageSoFar) {
   EXPECT_EQ(replay->image()->rgb, render->image()->rgb);
 }
 
+TEST(Render, TellsAnErrorAtEveryExposureThatIsAllowed) {
+  TilePool pool(2);
+  for (const double exposure : {-1000.0, -130.0, 127.0, 128.0, 1000.0}) {
+    Prepared p = prepare(pool);
+    p.view.image.width = 16, p.view.image.height = 9;
+    p.view.image.exposure = exposure;
+    p.view.render.samples = 8;
+    const auto render = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, p.view));
+    ASSERT_TRUE(render->wait_ms(1e12));
+    const ErrorSummary error = render->report().points.back().error;
+    EXPECT_TRUE(error.is_known);
+    EXPECT_GE(error.rmse, 0.0) << exposure;
+    EXPECT_LE(error.rmse, 1.0) << exposure;
+    EXPECT_LE(error.most, 2.0) << exposure;
+    for (const float bound : *render->error_bounds()) EXPECT_TRUE(bound >= 0.0f && bound < 2.0f) << exposure;
+    predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
+  }
+}
+
 // One pixel of every cell has what one sample a pixel gives it, to the bit, and the passes after a sketch know nothing
 // of it.
 TEST(Render, ASketchIsThePictureInASixteenthOfItsPixels) {
