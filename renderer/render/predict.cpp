@@ -18,7 +18,7 @@ namespace tilelight {
 namespace {
 
 // What the model of a picture leaves out, measured over the example scenes: relative standard deviations.
-constexpr double kPriceDeviation = 0.12;  // of the time of a ray
+constexpr double kPriceDeviation = 0.15;  // of the time of a ray
 constexpr double kModelDeviation = 0.15;  // of the error, beside the chance of which spots were probed
 // Of the variance, what does not lie where a probe shows it: there samples that go where the error is do not find it.
 constexpr double kHidden = 0.05;
@@ -177,10 +177,10 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
       out.rmse_high = std::max(out.rmse_high, o.rmse);
     }
   }
-  // Passes are whole, and what is told of a picture is a little more than its error.
+  // Passes are whole, the clock is looked at between them, and what is told of a picture is a little more than its
+  // error.
   out.elapsed_low_ms *= 0.95;
-  if (spec.time_ms)
-    out.elapsed_high_ms = std::max(out.elapsed_high_ms, std::min(*spec.time_ms, 1.05 * out.elapsed_high_ms));
+  out.elapsed_high_ms *= 1.05;
   if (out.rmse >= 0.0) out.rmse_low = 0.75 * std::max(0.0, out.rmse_low), out.rmse_high *= 1.1;
   out.probe_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return out;
