@@ -8,6 +8,7 @@
 #include <string>
 
 #include "renderer/cli/commands.h"
+#include "renderer/scene/words.h"
 
 namespace tilelight::cli {
 namespace {
@@ -15,9 +16,18 @@ namespace {
 // A subcommand writes its exit code here once its options are read.
 using Run = std::function<ExitCode()>;
 
+template <class Enum, size_t n>
+std::vector<std::string> names_of(const std::array<NamedValue<Enum>, n>& table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.emplace_back(entry.name);
+  return names;
+}
+
 void add_view_options(CLI::App& app, ViewOptions& view) {
   app.add_option("--width", view.width, "Width of the image, in pixels");
   app.add_option("--height", view.height, "Height of the image, in pixels");
+  app.add_option("--algorithm", view.algorithm, "Hidden-surface method")->check(CLI::IsMember(names_of(kAlgorithms)));
+  app.add_option("--shading", view.shading, "Shading rule")->check(CLI::IsMember(names_of(kShadings)));
   app.add_option("--samples", view.samples, "Stop at that many samples a pixel; stop rules replace the scene's own");
   app.add_option("--rmse", view.rmse, "Stop once the error is below: root mean square of the display's range 0 to 1");
   app.add_option("--time-ms", view.time_ms, "Stop at that time, in milliseconds");

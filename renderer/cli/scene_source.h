@@ -12,11 +12,11 @@
 
 namespace tilelight::cli {
 
-// What the command line changes in a scene's view.
 // Options that say something of the view. A stop rule among them replaces those of the scene.
 struct ViewOptions {
   std::optional<int> width, height, samples;
   std::optional<double> rmse, time_ms;
+  std::optional<std::string> algorithm, shading;  // words of the scene language
 };
 
 struct SceneText {

@@ -10,6 +10,8 @@
 #include "renderer/base/elementary.h"
 #include "renderer/base/standard_floats.h"
 #include "renderer/compile/passes.h"
+#include "renderer/compile/tessellate.h"
+#include "renderer/scene/words.h"
 
 namespace tilelight {
 namespace {
@@ -110,7 +112,7 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
     planes.push_back(glm::row(scene.bodies[i].local_from_world, 1));  // y = 0 in its own space
   start_near_bodies(out.eye, (out.camera.target - scene.center) / scene.units, view.image.width, view.image.height,
                     planes);
-  const auto leave_out = [&](Feature feature, const char* why) {
+  const auto leave_out = [&](Feature feature, const std::string& why) {
     if (!out.features.has(feature)) return;
     out.features.remove(feature);
     out.plan.left_out.push_back({"feature " + std::string(feature_name(feature)), why});
@@ -121,16 +123,30 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
   }
   if (is_convex_seen_from_outside(scene, out))
     leave_out(Feature::shadows, "a single convex body, seen from outside, hides nothing of itself from a light");
-  if (view.render.max_depth == 0) {
-    leave_out(Feature::reflection, "max_depth is 0: local light only");
+  const bool follows_rays = view.render.algorithm == Algorithm::raytrace;
+  if (!follows_rays) out.view.render.max_depth = 0;
+  if (out.view.render.max_depth == 0) {
+    const std::string why = follows_rays
+                                ? "max_depth is 0: local light only"
+                                : std::string(get_word(kAlgorithms, view.render.algorithm)) + " knows local light only";
+    leave_out(Feature::reflection, why);
     // Of two media that overlap, one hides surfaces of the other, at any depth.
-    if (scene.media <= 1) leave_out(Feature::transmission, "max_depth is 0: local light only");
-    leave_out(Feature::nested_media, "max_depth is 0: local light only");
-    leave_out(Feature::fresnel, "max_depth is 0: local light only");
+    if (scene.media <= 1) leave_out(Feature::transmission, why);
+    leave_out(Feature::nested_media, why);
+    leave_out(Feature::fresnel, why);
+  }
+  const RenderSpec& spec = out.view.render;
+  if (is_tessellated(spec) && out.features.has(Feature::spheres)) {
+    const int64_t triangles = tessellated_triangles(scene, out.eye, spec.chord_error_px);
+    leave_out(Feature::spheres, "they are drawn as triangles, " + std::to_string(triangles) + " in all");
+    out.features.add(Feature::triangles);
+    out.features.add(Feature::smooth_normals);
+    out.plan.triangles_instanced += triangles;
   }
   out.variant = choose_variant(out.features);
   out.plan.features = out.features;
   out.plan.kernel = variant_name(out.variant);
+  if (!follows_rays) out.plan.kernel = std::string(get_word(kAlgorithms, spec.algorithm)) + ", " + out.plan.kernel;
   out.plan.isa = isa;
   out.plan.plan_ms = watch.ms();
   return out;

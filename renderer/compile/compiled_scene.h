@@ -22,6 +22,7 @@ struct CompiledMesh {
   std::vector<Vec3> normals;                            // shared corner normals, unit
   std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
   bool closed = false;
+  bool is_solid = false;         // see TriMesh
   Mat4 mesh_from_local{1.0};     // undoes the normalisation
   std::array<Box, 8> octants{};  // around the positions in each octant; together they fit closely
 
@@ -30,9 +31,10 @@ struct CompiledMesh {
 
 struct CompiledBody {
   BodyKind kind = BodyKind::sphere;
-  bool closed = true;       // encloses a medium (sphere, box of some thickness, closed mesh)
-  MaterialId material = 0;  // into CompiledScene::materials
-  uint32_t body = 0;        // index into make_bodies' list: the public id
+  bool has_solid_pattern = false;  // a checker counts its cells in three dimensions: spheres, also tessellated
+  bool closed = true;              // encloses a medium (sphere, box of some thickness, closed mesh)
+  MaterialId material = 0;         // into CompiledScene::materials
+  uint32_t body = 0;               // index into make_bodies' list: the public id
   const CompiledMesh* mesh = nullptr;
   const TriangleTree* tree = nullptr;  // of the mesh, in local space; null: its triangles are in the scene's tree
   Vec3 half{1.0};

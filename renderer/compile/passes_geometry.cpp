@@ -177,6 +177,7 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
       if ((body.kind != BodyKind::plane) != finite) continue;
       CompiledBody c;
       c.kind = body.kind;
+      c.has_solid_pattern = body.kind == BodyKind::sphere;
       c.closed = encloses(body);
       c.material = body.material;
       c.body = static_cast<uint32_t>(i);

@@ -67,7 +67,7 @@ TriMesh MeshBuilder::finish() const {
     mesh.corner_normals.push_back({facing(corners_[i].normal, facet), facing(corners_[i + 1].normal, facet),
                                    facing(corners_[i + 2].normal, facet)});
   }
-  mesh.closed = is_closed(mesh);
+  mesh.closed = mesh.is_solid = is_closed(mesh);
   return mesh;
 }
 

@@ -18,8 +18,9 @@ struct TriMesh {
   std::vector<std::array<uint32_t, 3>> triangles;   // counter-clockwise from outside
   std::vector<std::array<Vec3, 3>> corner_normals;  // unit, one triple a triangle; empty = flat everywhere
   bool closed = false;                              // every edge is used exactly twice, once in each direction
-  int64_t degenerate_dropped = 0;                   // triangles of zero area that were left out
-  int64_t normals_repaired = 0;                     // zero or missing normals replaced by the geometric one
+  bool is_solid = false;           // made by the program: closed, outward everywhere, and nowhere through itself
+  int64_t degenerate_dropped = 0;  // triangles of zero area that were left out
+  int64_t normals_repaired = 0;    // zero or missing normals replaced by the geometric one
 };
 
 // A user's mesh: degenerate triangles dropped and counted, normals averaged by angle and split at crease_deg

@@ -9,6 +9,8 @@
 #include <mutex>
 
 #include "renderer/base/standard_floats.h"
+#include "renderer/compile/tessellate.h"
+#include "renderer/raster/method.h"
 #include "renderer/render/exposed_film.h"
 #include "renderer/render/pass_schedule.h"
 #include "renderer/render/sketch.h"
@@ -46,7 +48,6 @@ class TileRender final : public Render, public WorkSource {
         width_(plan_.view.image.width),
         height_(plan_.view.image.height),
         tiles_(tile_count(width_, height_, tile_px_)),
-        kernel_(kernel_of(plan_.variant)),
         eye_media_(*scene_, plan_),
         before_(options.continues ? std::move(options.continues->report) : RenderReport()),
         schedule_(plan_.view.render, before_.passes),
@@ -59,19 +60,16 @@ class TileRender final : public Render, public WorkSource {
     // Kernels of local light alone do not look at what surfaces would pass on.
     if (plan_.view.render.max_depth == 0) tally_.untraced_weight = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
-    if (source_) {
-      open_copy();
-    } else {
-      open_pass(schedule_.next(standing_));
-    }
+    const std::lock_guard lock(mutex_);
+    open_step(Stage::prepare, 0);
   }
 
   Next take() override {
     const std::lock_guard lock(mutex_);
     if (state_ != RenderState::running) return {Offer::finished, 0};
-    if (cancelled_.load(std::memory_order_relaxed) || next_tile_ == tiles_) return {Offer::nothing_now, 0};
+    if (cancelled_.load(std::memory_order_relaxed) || next_item_ == items_) return {Offer::nothing_now, 0};
     ++in_flight_;
-    return {Offer::item, static_cast<uint64_t>(next_tile_++)};
+    return {Offer::item, static_cast<uint64_t>(next_item_++)};
   }
 
   void run(uint64_t item) override {
@@ -115,7 +113,7 @@ class TileRender final : public Render, public WorkSource {
       p.fraction = 1.0;
       return p;
     }
-    const double steps = step_first_ + static_cast<double>(step_samples_) * tiles_done_ / tiles_;
+    const double steps = step_first_ + static_cast<double>(step_samples_) * items_done_ / items_;
     const double in_pass = stage_ == Stage::trace ? steps / pass_length_ : 1.0;
     const double expected = std::max(1.0, schedule_.expected_samples(standing_)) - first_spp_;
     p.fraction = (standing_.spp + pass_samples_ * in_pass - first_spp_) / std::max(1e-9, expected);
@@ -158,11 +156,14 @@ class TileRender final : public Render, public WorkSource {
   }
 
  private:
-  enum class Stage { copy, sketch, fill, trace, measure, spread };
+  enum class Stage { prepare, copy, sketch, fill, trace, measure, spread };
 
   // What is read here is constant while items of the step run.
   void work_on(const TileRect& tile, TileCounts& counts) {
     switch (stage_) {
+      case Stage::prepare:
+        method_ = make_method(*scene_, plan_, pool_);
+        break;
       case Stage::copy:
         film_.copy(tile, source_->film);
         break;
@@ -203,13 +204,13 @@ class TileRender final : public Render, public WorkSource {
   }
 
   void trace(const std::vector<CellWork>& cells, TileView view, TileCounts& counts) {
-    kernel_({.scene = scene_.get(),
-             .plan = &plan_,
-             .eye_media = &eye_media_,
-             .film = &view,
-             .cells = cells,
-             .cancelled = &cancelled_,
-             .counts = &counts});
+    method_->draw({.scene = scene_.get(),
+                   .plan = &plan_,
+                   .eye_media = &eye_media_,
+                   .film = &view,
+                   .cells = cells,
+                   .cancelled = &cancelled_,
+                   .counts = &counts});
   }
 
   // What an item leaves to be done once the lock is free.
@@ -220,7 +221,7 @@ class TileRender final : public Render, public WorkSource {
     bool is_step_whole = false;
     {
       const std::lock_guard lock(mutex_);
-      ++tiles_done_;
+      ++items_done_;
       add(counts, item_ms);
       if (!error.empty() && error_.empty()) {
         error_ = error;
@@ -228,7 +229,7 @@ class TileRender final : public Render, public WorkSource {
       }
       drop_overrun_pass();
       const bool is_stopping = cancelled_.load(std::memory_order_relaxed);
-      is_step_whole = !is_stopping && tiles_done_ == tiles_;
+      is_step_whole = !is_stopping && items_done_ == items_;
       if (is_stopping && --in_flight_ == 0) {
         end_early();
         then = Then::announce_end;
@@ -251,7 +252,7 @@ class TileRender final : public Render, public WorkSource {
   void drop_overrun_pass() {
     const auto& time_ms = plan_.view.render.time_ms;
     if (!time_ms || standing_.passes == 0 || stage_ != Stage::trace || state_ != RenderState::running) return;
-    if (is_repeating() || counted_ms() <= *time_ms || tiles_done_ == tiles_) return;
+    if (is_repeating() || counted_ms() <= *time_ms || items_done_ == items_) return;
     over_time_ = true;
     cancelled_.store(true, std::memory_order_relaxed);
   }
@@ -271,6 +272,8 @@ class TileRender final : public Render, public WorkSource {
   // work over the whole image needs no lock.
   Then finish_step() {
     switch (stage_) {
+      case Stage::prepare:
+        return begin();
       case Stage::copy:
         film_.samples() = source_->film.samples();
         source_ = nullptr;
@@ -377,6 +380,16 @@ class TileRender final : public Render, public WorkSource {
     return static_cast<double>(sum) / (static_cast<double>(width_) * height_);
   }
 
+  Then begin() {
+    if (source_) {
+      open_copy();
+    } else {
+      open_pass(schedule_.next(standing_));
+    }
+    const std::lock_guard lock(mutex_);
+    return leave(Then::wake);
+  }
+
   void open_copy() {
     for (size_t block = 0; block < kSampleBlocks && source_->film.planes()[block]; ++block)
       film_.grow(static_cast<uint32_t>(block) + 1);
@@ -434,8 +447,8 @@ class TileRender final : public Render, public WorkSource {
     step_first_ = first;
     step_samples_ = std::clamp(static_cast<uint32_t>(fitting), 1u, pass_length_ - (stage == Stage::trace ? first : 0));
     step_start_ = Clock::now();
-    next_tile_ = 0;
-    tiles_done_ = 0;
+    items_ = stage == Stage::prepare ? 1 : tiles_;
+    next_item_ = items_done_ = 0;
   }
 
   // REQUIRES: mutex_.
@@ -487,7 +500,6 @@ class TileRender final : public Render, public WorkSource {
   const ViewPlan plan_;
   const std::function<void()> on_pass_;
   const int tile_px_, width_, height_, tiles_;
-  const Kernel kernel_;
   const EyeMedia eye_media_;
   const RenderReport before_;  // of the render that is continued; empty without one
   const PassSchedule schedule_;
@@ -495,6 +507,7 @@ class TileRender final : public Render, public WorkSource {
 
   std::atomic<bool> cancelled_{false};
   // Items write disjoint tiles; between steps the last item's thread has them for itself.
+  std::unique_ptr<const Method> method_;
   std::shared_ptr<const ExposedFilm> source_;  // until it is copied
   const std::shared_ptr<ExposedFilm> exposed_;
   Film& film_ = exposed_->film;
@@ -518,8 +531,8 @@ class TileRender final : public Render, public WorkSource {
   bool is_for_all_ = true;
   uint32_t pass_length_ = 1;  // samples of the cell that takes most
   Stage stage_ = Stage::trace;
-  uint32_t step_first_ = 0, step_samples_ = 1;  // of each cell's samples in the pass
-  int next_tile_ = 0, tiles_done_ = 0, in_flight_ = 0;
+  uint32_t step_first_ = 0, step_samples_ = 1;                      // of each cell's samples in the pass
+  int items_ = 1, next_item_ = 0, items_done_ = 0, in_flight_ = 0;  // the first three of the step
   double item_ms_per_sample_ = 0.0;
   RenderReport report_;
 };
@@ -553,6 +566,8 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view) { return plan_v
 std::shared_ptr<Render> Render::start(TilePool& pool, Priority priority, std::shared_ptr<const CompiledScene> scene,
                                       ViewPlan plan, RenderOptions options) {
   const StandardFloats floats;
+  const RenderSpec& spec = plan.view.render;
+  if (is_tessellated(spec)) scene = tessellate(scene, plan.eye, spec.chord_error_px, pool);
   auto render = std::make_shared<TileRender>(pool, std::move(scene), std::move(plan), std::move(options));
   pool.add(render, priority);
   return render;

@@ -102,6 +102,9 @@ RenderSpec build_render(Value value, const Limits& limits, Problems& problems) {
   render.max_depth = std::min(read_int(value, "max_depth", render.max_depth), limits.max_depth);
   render.weight_cutoff = read_number(value, "weight_cutoff", render.weight_cutoff);
   render.ray_budget = std::min(read_int(value, "ray_budget", render.ray_budget), limits.ray_budget);
+  render.tessellate = read_boolean(value, "tessellate", render.tessellate);
+  render.chord_error_px = read_number(value, "chord_error_px", render.chord_error_px);
+  render.hidden_lines = read_boolean(value, "hidden_lines", render.hidden_lines);
   render.seed = static_cast<uint32_t>(read_number(value, "seed", render.seed));
   build_stop_rules(value, render, limits, problems);
   render.adaptive = read_boolean(value, "adaptive", render.rmse || render.time_ms);

@@ -68,7 +68,6 @@ class GrammarCheck {
     }
     switch (rule.form) {
       case Form::boolean:
-        check_boolean(value, rule);
         break;
       case Form::number:
         if (!is_in_range(value.number(), rule.range)) refuse(value, range_complaint(value.number(), rule.range));
@@ -181,27 +180,9 @@ class GrammarCheck {
     }
   }
 
-  void check_boolean(Value value, const Rule& rule) {
-    if (rule.only_false && value.boolean()) {
-      refuse(value, {"not_in_this_release", "found true; allowed in this release: false", {"false"}, ""});
-    }
-  }
-
   void check_word(Value value, const Rule& rule) {
-    const auto known = std::find_if(rule.words.begin(), rule.words.end(),
-                                    [value](const Word& word) { return word.word == value.text(); });
-    if (known != rule.words.end() && known->released) return;
-    std::vector<std::string> allowed;
-    for (const Word& word : rule.words) {
-      if (word.released) allowed.emplace_back(word.word);
-    }
-    if (known != rule.words.end()) {
-      refuse(value, {"not_in_this_release",
-                     in_quotes(value.text()) +
-                         " is of the language, but this release cannot do it yet; allowed: " + join_words(allowed),
-                     allowed, ""});
-      return;
-    }
+    if (std::find(rule.words.begin(), rule.words.end(), value.text()) != rule.words.end()) return;
+    std::vector<std::string> allowed(rule.words.begin(), rule.words.end());
     std::string hint = did_you_mean(value.text(), allowed);
     refuse(value, {"unknown_word", "found " + in_quotes(value.text()) + "; allowed: " + join_words(allowed), allowed,
                    std::move(hint)});
@@ -273,13 +254,12 @@ class GrammarCheck {
   }
 
   void check_tagged(Value value, const Rule& rule) {
-    std::vector<Word> words;
-    for (const auto& record : rule.records) words.push_back({record->name});
+    std::vector<std::string_view> words;
+    for (const auto& record : rule.records) words.push_back(record->name);
     const Rule tag_rule{.form = Form::word, .words = std::move(words)};
     const Value tag = value.find("type");
     if (!tag && !rule.tag_optional) {
-      std::vector<std::string> allowed;
-      for (const Word& word : tag_rule.words) allowed.emplace_back(word.word);
+      const std::vector<std::string> allowed(tag_rule.words.begin(), tag_rule.words.end());
       refuse(value, {"missing_key", "found no \"type\"; allowed: " + join_words(allowed), allowed, ""});
       return;
     }

@@ -35,7 +35,7 @@ std::string describe_range(const Range& range) {
 std::string describe_allowed(const Rule& rule) {
   switch (rule.form) {
     case Form::boolean:
-      return rule.only_false ? "false" : "true or false";
+      return "true or false";
     case Form::number:
       return describe_range(rule.range);
     case Form::numbers: {
@@ -48,9 +48,7 @@ std::string describe_allowed(const Rule& rule) {
       return "\"#rrggbb\"";
     case Form::word: {
       std::vector<std::string> words;
-      for (const Word& word : rule.words) {
-        if (word.released) words.push_back(in_quotes(word.word));
-      }
+      for (const std::string_view word : rule.words) words.push_back(in_quotes(word));
       return join_words(words);
     }
     case Form::list:

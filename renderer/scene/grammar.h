@@ -33,11 +33,6 @@ struct Length {
   bool is_limit = false;  // max is a limit of the server and not of the language
 };
 
-struct Word {
-  std::string_view word;
-  bool released = true;  // false: of the language, but this release cannot do it
-};
-
 enum class Form : uint8_t {
   boolean,
   number,
@@ -59,9 +54,8 @@ struct Rule {
   Range range{};                // number; every entry of numbers
   Length length{};              // numbers, list, map
   bool nonzero_vector = false;  // numbers: not all may be zero
-  bool only_false = false;      // boolean: `true` is of the language, but this release cannot do it
   bool tag_optional = false;    // tagged: without "type" it is the first record
-  std::vector<Word> words{};
+  std::vector<std::string_view> words{};
   std::vector<Rule> options{};
   std::vector<std::shared_ptr<const Record>> records{};
   std::string_view shared_name{};  // where the schema defines it once for all

@@ -46,14 +46,12 @@ inline Rule record_rule(std::shared_ptr<const Record> record) {
   return {.form = Form::record, .records = {std::move(record)}};
 }
 inline Rule record_rule(Record record) { return record_rule(std::make_shared<const Record>(std::move(record))); }
-inline Rule words_rule(std::vector<Word> words) { return {.form = Form::word, .words = std::move(words)}; }
 
 template <class Enum, size_t n>
-Rule words_rule(const std::array<NamedValue<Enum>, n>& table, std::vector<Word> later = {}) {
-  std::vector<Word> words;
-  for (const auto& entry : table) words.push_back({entry.name});
-  for (Word word : later) words.push_back({word.word, false});
-  return words_rule(std::move(words));
+Rule words_rule(const std::array<NamedValue<Enum>, n>& table) {
+  Rule rule{.form = Form::word};
+  for (const auto& entry : table) rule.words.push_back(entry.name);
+  return rule;
 }
 
 // A colour: grey, linear RGB, or sRGB in hexadecimal.

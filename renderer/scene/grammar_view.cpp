@@ -40,14 +40,15 @@ Rule image_grammar(const Limits& limits) {
 
 Rule render_grammar(const Limits& limits) {
   const Range pass{.min = 0.0, .max = static_cast<double>(limits.samples), .above_min = true, .is_limit = true};
-  Rule tessellate = boolean_rule();
-  tessellate.only_false = true;
   return record_rule(
       {"render",
        "Method and stop rules; the first rule that holds ends the render",
-       {{"algorithm", words_rule(kAlgorithms, {{"zbuffer"}, {"warnock"}, {"roberts"}}), "Hidden-surface method", "",
+       {{"algorithm", words_rule(kAlgorithms), "Hidden-surface method",
+         "raytrace: the whole light model; zbuffer, warnock: local light, with shadows by rays; roberts: a line "
+         "drawing.",
          "\"raytrace\""},
-        {"shading", words_rule(kShadings, {{"flat"}, {"gouraud"}}), "Shading rule", "", "\"phong\""},
+        {"shading", words_rule(kShadings), "Shading rule",
+         "flat: lit once a face, at its middle; gouraud: lit at the corners; phong: lit at every point.", "\"phong\""},
         {"shadows", boolean_rule(), "Whether any light casts shadows", "", "true"},
         {"max_depth", whole_rule(0, limits.max_depth, true), "Secondary rays in a row", "0: local light only.", "8"},
         {"weight_cutoff", number_rule(kUnitInterval), "Least weight of a path that is followed", "", "0.002"},
@@ -57,7 +58,11 @@ Rule render_grammar(const Limits& limits) {
         {"filter", words_rule(kFilters), "Pixel filter",
          "box: the pixel's square; tent: a pixel to each side of its middle; gaussian: of half a pixel's deviation.",
          "\"box\""},
-        {"tessellate", tessellate, "Whether spheres and boxes become triangles", "", "false"},
+        {"tessellate", boolean_rule(), "Whether spheres become triangles",
+         "Always so by every method but ray tracing and every shading but phong.", "false"},
+        {"chord_error_px", number_rule({.min = 0.0, .max = 100.0, .above_min = true}),
+         "How far those triangles may lie off", "Pixels, as seen from the eye.", "0.25"},
+        {"hidden_lines", boolean_rule(), "Whether roberts draws hidden lines too", "Dashed.", "false"},
         {"seed", whole_rule(0, 4294967295.0), "Seed of the sampling pattern", "", "0"},
         {"samples", whole_rule(1, limits.samples, true), "Stop rule: samples a pixel",
          "In the mean over pixels. 16 where no rule is given; the server's limit beside `rmse` or `time_ms` alone."},

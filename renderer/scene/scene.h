@@ -153,9 +153,11 @@ struct ImageSpec {
   bool operator==(const ImageSpec&) const = default;
 };
 
-// Only what this release can render; other names of the language are refused by the parser.
-enum class Algorithm { raytrace };
-enum class Shading { phong };
+// What decides which surface is seen: rays through the whole light model (Whitted 1980), a depth buffer (Catmull 1974)
+// or subdivision of the window (Warnock 1969) with local light, or the visible edges alone (Roberts 1963).
+enum class Algorithm { raytrace, zbuffer, warnock, roberts };
+// Where the light equation is evaluated: once a face, at its middle; at its corners; at every point.
+enum class Shading { flat, gouraud, phong };
 
 // Where the light ends on a mesh with interpolated normals: on the smooth surface that it stands for, or facet by
 // facet.
@@ -170,6 +172,9 @@ struct RenderSpec {
   bool shadows = true;
   Terminator terminator = Terminator::smooth;
   PixelFilter filter = PixelFilter::box;
+  bool tessellate = false;       // spheres become triangles; see is_tessellated
+  double chord_error_px = 0.25;  // how far these may lie off the sphere, pixels as seen from the eye
+  bool hidden_lines = false;     // roberts: dashed
   int max_depth = 8;             // secondary rays in a row; 0 = local light only
   double weight_cutoff = 0.002;  // a path of less weight is not followed
   int ray_budget = 4096;         // rays a pixel sample
@@ -183,6 +188,12 @@ struct RenderSpec {
   bool adaptive = false;       // samples go where the error is; else every pixel takes as many
   bool operator==(const RenderSpec&) const = default;
 };
+
+// Whether the view is drawn from triangles, at sample places of 1/256 pixel: every method but ray tracing and every
+// shading but phong takes it so.
+inline bool is_tessellated(const RenderSpec& spec) {
+  return spec.tessellate || spec.algorithm != Algorithm::raytrace || spec.shading != Shading::phong;
+}
 
 struct View {
   std::optional<Camera> camera;  // absent: framed from the scene

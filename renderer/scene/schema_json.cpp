@@ -46,7 +46,7 @@ class SchemaWriter {
   json plain_schema(const Rule& rule) {
     switch (rule.form) {
       case Form::boolean:
-        return rule.only_false ? json{{"const", false}} : json{{"type", "boolean"}};
+        return {{"type", "boolean"}};
       case Form::number:
         return number_schema(rule.range);
       case Form::numbers:
@@ -92,13 +92,7 @@ class SchemaWriter {
     return schema;
   }
 
-  static json word_schema(const Rule& rule) {
-    json words = json::array();
-    for (const Word& word : rule.words) {
-      if (word.released) words.push_back(word.word);
-    }
-    return {{"enum", std::move(words)}};
-  }
+  static json word_schema(const Rule& rule) { return {{"enum", rule.words}}; }
 
   json list_schema(const Rule& rule) {
     json schema = {{"type", "array"}, {"items", rule_schema(rule.options[0])}};

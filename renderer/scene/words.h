@@ -37,8 +37,12 @@ inline constexpr std::array<NamedValue<ChessRole>, kChessRoles> kChessRoleNames{
                                                                                  {ChessRole::frame, "frame"}}};
 inline constexpr std::array<NamedValue<Projection>, 2> kProjections{
     {{Projection::perspective, "perspective"}, {Projection::orthographic, "orthographic"}}};
-inline constexpr std::array<NamedValue<Algorithm>, 1> kAlgorithms{{{Algorithm::raytrace, "raytrace"}}};
-inline constexpr std::array<NamedValue<Shading>, 1> kShadings{{{Shading::phong, "phong"}}};
+inline constexpr std::array<NamedValue<Algorithm>, 4> kAlgorithms{{{Algorithm::raytrace, "raytrace"},
+                                                                   {Algorithm::zbuffer, "zbuffer"},
+                                                                   {Algorithm::warnock, "warnock"},
+                                                                   {Algorithm::roberts, "roberts"}}};
+inline constexpr std::array<NamedValue<Shading>, 3> kShadings{
+    {{Shading::flat, "flat"}, {Shading::gouraud, "gouraud"}, {Shading::phong, "phong"}}};
 inline constexpr std::array<NamedValue<PixelFilter>, 3> kFilters{
     {{PixelFilter::box, "box"}, {PixelFilter::tent, "tent"}, {PixelFilter::gaussian, "gaussian"}}};
 inline constexpr std::array<NamedValue<Terminator>, 2> kTerminators{

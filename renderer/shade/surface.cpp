@@ -9,32 +9,10 @@
 namespace tilelight {
 namespace {
 
-struct LocalPoint {
-  Vec3 position{0.0};
-  Vec3 geometric{0.0};     // outward, any length
-  Vec3 shading{0.0};       // outward, any length; of what is smooth alone
-  bool is_smooth = false;  // else it is shaded by its geometric normal
-};
-
-LocalPoint triangle_point(const CompiledMesh& mesh, const Hit& hit) {
-  const auto& tri = mesh.triangles[hit.prim];
-  const Vec3 &a = mesh.positions[tri[0]], &b = mesh.positions[tri[1]], &c = mesh.positions[tri[2]];
-  const double b2 = 1.0 - hit.b0 - hit.b1;
-  LocalPoint out;
-  out.position = hit.b0 * a + hit.b1 * b + b2 * c;
-  out.geometric = cross_of(b - a, c - a);
-  if (!mesh.corner_normals.empty()) {
-    const auto& n = mesh.corner_normals[hit.prim];
-    out.shading = hit.b0 * mesh.normals[n[0]] + hit.b1 * mesh.normals[n[1]] + b2 * mesh.normals[n[2]];
-    out.is_smooth = out.shading != Vec3(0.0);  // opposite normals cancel
-  }
-  return out;
-}
-
 // The hit in the body's local space, reprojected, so that its error is that of the primitive and not of the ray's
 // length.
 LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit) {
-  if (body.kind == BodyKind::mesh) return triangle_point(*body.mesh, hit);
+  if (body.kind == BodyKind::mesh) return triangle_point(*body.mesh, hit.prim, hit.b0, hit.b1);
   LocalPoint out;
   out.position = transform_point(body.local_from_world, ray.origin) +
                  hit.t * transform_vector(body.local_from_world, ray.direction);
@@ -66,7 +44,7 @@ Color checker_color(const Checker& checker, const CompiledBody& body, const Loca
   const Vec3 place = transform_point(body.pattern_from_local, p.position) / checker.size;
   double cells = 0.0;
   int dominant = -1;
-  if (body.kind != BodyKind::sphere) {
+  if (!body.has_solid_pattern) {
     // The pattern frame differs from the local one by a uniform scale and a shift, so normals keep their direction.
     // Of axes that rounding cannot tell apart (facets at 45 degrees) the first counts.
     const Vec3 n = glm::abs(p.geometric);
@@ -86,9 +64,27 @@ Color paint_color(const Paint& paint, const CompiledBody& body, const LocalPoint
 
 }  // namespace
 
+LocalPoint triangle_point(const CompiledMesh& mesh, uint32_t prim, double b0, double b1) {
+  const auto& tri = mesh.triangles[prim];
+  const Vec3 &a = mesh.positions[tri[0]], &b = mesh.positions[tri[1]], &c = mesh.positions[tri[2]];
+  const double b2 = 1.0 - b0 - b1;
+  LocalPoint out;
+  out.position = b0 * a + b1 * b + b2 * c;
+  out.geometric = cross_of(b - a, c - a);
+  if (!mesh.corner_normals.empty()) {
+    const auto& n = mesh.corner_normals[prim];
+    out.shading = b0 * mesh.normals[n[0]] + b1 * mesh.normals[n[1]] + b2 * mesh.normals[n[2]];
+    out.is_smooth = out.shading != Vec3(0.0);  // opposite normals cancel
+  }
+  return out;
+}
+
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
+  return make_surface_at(scene, ray, hit, local_point(scene.bodies[hit.body], ray, hit));
+}
+
+Surface make_surface_at(const CompiledScene& scene, const Ray& ray, const Hit& hit, const LocalPoint& local) {
   const CompiledBody& body = scene.bodies[hit.body];
-  const LocalPoint local = local_point(body, ray, hit);
   Surface out;
   out.body = &body;
   out.material = &scene.materials[body.material];

@@ -21,6 +21,18 @@ struct Surface {
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
 
+// A place on a body's surface, in its local space. Normals outward and of any length.
+struct LocalPoint {
+  Vec3 position{0.0};
+  Vec3 geometric{0.0};
+  Vec3 shading{0.0};       // of what is smooth alone
+  bool is_smooth = false;  // else it is shaded by its geometric normal
+};
+// The point with these weights of the first two corners, which need not lie in the triangle. REQUIRES: a mesh.
+LocalPoint triangle_point(const CompiledMesh& mesh, uint32_t prim, double b0, double b1);
+// A place on the primitive of a hit, seen along its ray.
+Surface make_surface_at(const CompiledScene& scene, const Ray& ray, const Hit& hit, const LocalPoint& local);
+
 // Where shadow rays start on a rounded surface: off the facet, on the curved surface, which is taken from the tangent
 // planes at the corners (Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4). Never under the facet.
 // REQUIRES: surface.is_rounded, and the hit it was made from.

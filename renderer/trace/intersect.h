@@ -20,6 +20,21 @@ inline LocalRay to_local(const CompiledBody& body, const Ray& ray) {
   return {transform_point(body.local_from_world, ray.origin), transform_vector(body.local_from_world, ray.direction)};
 }
 
+// Inside two units of the centre the origin may stay.
+inline constexpr double kNearOrigin2 = 4.0;
+// The origin moved along the ray by `shift` (of t) to near the centre.
+inline Vec3 moved_origin(const LocalRay& ray, double& shift) {
+  const double d2 = glm::dot(ray.direction, ray.direction);
+  shift = glm::dot(ray.origin, ray.origin) > kNearOrigin2 ? -glm::dot(ray.origin, ray.direction) / d2 : 0.0;
+  Vec3 moved = ray.origin + shift * ray.direction;
+  if (glm::dot(moved, moved) > kNearOrigin2) {  // so far away that the shift itself was rounded by units: once more
+    const double rest = -glm::dot(moved, ray.direction) / d2;
+    shift += rest;
+    moved += rest * ray.direction;
+  }
+  return moved;
+}
+
 // Where a ray starts on a surface, other surfaces may lie in the same place, within the rounding of a point near the
 // scene. Along the ray that rounding is longer the flatter the ray meets the surface, up to `reach`.
 struct Start {
@@ -166,14 +181,15 @@ struct Shear {
 struct TriangleHit {
   double t, b0, b1;
 };
+// with_its_plane: a ray that misses the triangle is answered by the triangle's plane.
 inline bool intersect_triangle(const Vec3& v0, const Vec3& v1, const Vec3& v2, const Vec3& origin, const Shear& s,
-                               TriangleHit& hit) {
+                               TriangleHit& hit, bool with_its_plane = false) {
   const Vec3 a = v0 - origin, b = v1 - origin, c = v2 - origin;
   const double ax = a[s.kx] - s.sx * a[s.kz], ay = a[s.ky] - s.sy * a[s.kz];
   const double bx = b[s.kx] - s.sx * b[s.kz], by = b[s.ky] - s.sy * b[s.kz];
   const double cx = c[s.kx] - s.sx * c[s.kz], cy = c[s.ky] - s.sy * c[s.kz];
   const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return false;
+  if (!with_its_plane && (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return false;
   const double det = u + v + w;
   if (det == 0.0) return false;  // seen edge on: no area
   const double scale = 1.0 / det;

@@ -63,4 +63,10 @@ SamplePoint through_filter(PixelFilter filter, SamplePoint point) {
   return point;
 }
 
+SamplePoint place_sample(const RenderSpec& spec, int x, int y, uint32_t index) {
+  const SamplePoint p = through_filter(spec.filter, sample_point(x, y, spec.seed, index));
+  if (!is_tessellated(spec)) return p;
+  return {std::floor(p.x * kSubpixels) / kSubpixels, std::floor(p.y * kSubpixels) / kSubpixels};
+}
+
 }  // namespace tilelight

@@ -15,4 +15,9 @@ inline constexpr int kFilterReachPx = 1;
 // pixel. tent: up to a pixel from its middle. gaussian: of standard deviation half a pixel, up to 1.5 from the middle.
 SamplePoint through_filter(PixelFilter filter, SamplePoint point);
 
+// Where sample `index` of the pixel lies, relative to the pixel's first corner. Views that are drawn from triangles
+// have their samples on a grid of 1/256 pixel, so that edge functions of corners on that grid are exact.
+inline constexpr double kSubpixels = 256.0;
+SamplePoint place_sample(const RenderSpec& spec, int x, int y, uint32_t index);
+
 }  // namespace tilelight

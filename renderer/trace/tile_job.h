@@ -48,6 +48,13 @@ struct CellWork {
   uint32_t first = 0, count = 1;
 };
 
+// What the primary rays of a work item hit, found by another method than walking them. Read by one thread.
+class FirstHits {
+ public:
+  virtual ~FirstHits() = default;
+  virtual Hit at(int x, int y, uint32_t sample, const Ray& ray) const = 0;
+};
+
 struct TileJob {
   const CompiledScene* scene = nullptr;
   const ViewPlan* plan = nullptr;
@@ -56,7 +63,8 @@ struct TileJob {
   std::span<const CellWork> cells;
   const std::atomic<bool>* cancelled = nullptr;  // read every batch; may be null
   TileCounts* counts = nullptr;
-  RayListener* listener = nullptr;  // explain() alone sets it
+  const FirstHits* first_hits = nullptr;  // null: rays find them
+  RayListener* listener = nullptr;        // explain() alone sets it
 };
 
 using Kernel = void (*)(const TileJob&);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/shade/face_light.h"
 #include "renderer/shade/media.h"
 #include "renderer/shade/scatter.h"
 #include "renderer/trace/intersect.h"
@@ -39,6 +40,7 @@ class TileKernel {
         spec_(job.plan->view.render),
         counts_(*job.counts),
         beams_(job.scene->lights.size()),
+        face_light_(*job.scene, job.plan->view.render.shading, job.plan->view.render.terminator == Terminator::smooth),
         media_(*job.scene) {}
 
   void run() {
@@ -142,8 +144,7 @@ class TileKernel {
     constexpr size_t kShadowRays = 4096;
     size_t sample_start = 0;  // in pending_, of the sample in work
     const std::span<BoundedRay> rays = std::span(level.rays).subspan(first, last - first);
-    hits_.resize(rays.size());
-    trace_closest(scene_, rays, hits_);
+    find_hits(level, rays, first);
     next_ = &next;
     for (size_t i = 0; i < rays.size(); ++i) {
       Path& path = level.paths[first + i];
@@ -157,6 +158,17 @@ class TileKernel {
       shade(rays[i].ray, path, hits_[i]);
     }
     add_lights();
+  }
+
+  // Fills hits_. Those of primary rays may be known already.
+  void find_hits(const Level& level, std::span<const BoundedRay> rays, size_t first) {
+    if (job_.first_hits && &level == &levels_[0]) {
+      hits_.assign(first_hits_.begin() + static_cast<std::ptrdiff_t>(first),
+                   first_hits_.begin() + static_cast<std::ptrdiff_t>(first + rays.size()));
+      return;
+    }
+    hits_.resize(rays.size());
+    trace_closest(scene_, rays, hits_);
   }
 
   // Adds what the lights bring to the hits shaded so far, where nothing stands between.
@@ -179,14 +191,16 @@ class TileKernel {
     if (levels_.empty()) levels_.emplace_back();
     Level& primary = levels_[0];
     primary.clear();
+    first_hits_.clear();
     enter_eye_media();
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
     for_each_sample([&](int x, int y, uint32_t index) {
-      const SamplePoint p = through_filter(spec_.filter, sample_point(x, y, spec_.seed, index));
+      const SamplePoint p = place_sample(spec_, x, y, index);
       const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
       primary.push(ray.origin, ray.direction, {}, Coincident::none,
                    {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
+      if (job_.first_hits) first_hits_.push_back(job_.first_hits->at(x, y, index, primary.rays.back().ray));
     });
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
@@ -224,7 +238,8 @@ class TileKernel {
       if constexpr (kCan.listens) listen(ray, path, hit, nullptr, sky);
       return;
     }
-    const Surface surface = make_surface(scene_, ray, hit);
+    Surface surface = make_surface(scene_, ray, hit);
+    if (spec_.shading == Shading::flat) surface.normal = surface.geometric_normal, surface.is_rounded = false;
     const Color ambient = scene_.ambient * surface.ambient;
     radiance_[path.sample] += path.weight * ambient;
     if constexpr (kCan.listens) listen(ray, path, hit, &surface, ambient);
@@ -235,9 +250,12 @@ class TileKernel {
   void light(const Ray& ray, const Path& path, const Surface& surface, const Hit& hit) {
     const bool is_rounded = surface.is_rounded && spec_.terminator == Terminator::smooth;
     const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
+    const bool is_by_face = spec_.shading != Shading::phong && surface.body->kind != BodyKind::plane;
+    if (is_by_face) face_light_.look_at(ray, hit, surface, viewer_of(ray, path), path.depth == 0);
     for (size_t i = 0; i < scene_.lights.size(); ++i) {
       const CompiledLight& source = scene_.lights[i];
-      const LightSample sample = sample_light(scene_, source, surface, -ray.direction, is_rounded);
+      const LightSample sample =
+          is_by_face ? face_light_.sample(i) : sample_light(scene_, source, surface, -ray.direction, is_rounded);
       counts_.lights_on_hits += sample.distance == 0.0;
       Color seen(0.0);
       if (sample.is_lit) {
@@ -255,6 +273,13 @@ class TileKernel {
       }
       if constexpr (kCan.listens) job_.listener->on_light(source, sample, seen);
     }
+  }
+
+  // Who looks along a ray: his place, or for an orthographic eye the way to him.
+  Vec4 viewer_of(const Ray& ray, const Path& path) const {
+    if (path.depth > 0) return Vec4(ray.origin, 1.0);
+    if (plan_.eye.projection == Projection::orthographic) return Vec4(-ray.direction, 0.0);
+    return Vec4(plan_.eye.origin, 1.0);
   }
 
   // A shadow ray from `start`, the surface's place or, where it is rounded, somewhat above it. A surface that the light
@@ -406,11 +431,13 @@ class TileKernel {
   std::deque<Level> levels_;  // by depth; a deque, so that a level stays where it is while deeper ones come
   Level* next_ = nullptr;     // takes the rays that the part in work sends out
   std::vector<Hit> hits_;
+  std::vector<Hit> first_hits_;   // of the batch's primary rays, where the job knows them
   std::vector<Beam> beams_;       // by light
   std::vector<Pending> pending_;  // what each shadow ray decides
   std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
   std::vector<Hit> beam_hits_;
+  FaceLight face_light_;  // of flat and Gouraud shading
   MediaSets media_;
   MediaSets::Set eye_media_ = MediaSets::kOpenAir;
   MediaList some_media_;         // hold the starts of some rays of the batch

@@ -43,8 +43,6 @@ inline constexpr float kFilterSlack = 0x1p-18f;
 // Points in a plane sheared by slopes up to 1 are off by less than this: 29 roundings of 2^-25 (of origin, direction,
 // vertex, shear and their products) come to 2^-20.1. What is discarded and what is accepted both rest on it.
 inline constexpr float kSheared = 0x1p-19f;
-// Inside two units of the centre the origin may stay.
-inline constexpr double kNearOrigin2 = 4.0;
 // A slope of 0 would make 0 * inf; the widened boxes allow for one this small.
 inline constexpr float kTinySlope = 0x1p-60f;
 
@@ -52,19 +50,6 @@ HWY_INLINE float filter_t_max(double t, double shift, double length) {
   const double local = (t - shift) * length;
   if (!(local < 1e30)) return 1e30f;
   return static_cast<float>(local) + kFilterSlack * (1.0f + std::abs(static_cast<float>(local)));
-}
-
-// The origin moved along the ray by `shift` (of t) to near the centre.
-HWY_INLINE Vec3 moved_origin(const LocalRay& ray, double& shift) {
-  const double d2 = glm::dot(ray.direction, ray.direction);
-  shift = glm::dot(ray.origin, ray.origin) > kNearOrigin2 ? -glm::dot(ray.origin, ray.direction) / d2 : 0.0;
-  Vec3 moved = ray.origin + shift * ray.direction;
-  if (glm::dot(moved, moved) > kNearOrigin2) {  // so far away that the shift itself was rounded by units: once more
-    const double rest = -glm::dot(moved, ray.direction) / d2;
-    shift += rest;
-    moved += rest * ray.direction;
-  }
-  return moved;
 }
 
 // How far a ray's line in the world may lie from the same line in some body's space, where what is found is decided:

@@ -63,7 +63,8 @@ std::string view_fingerprint(const View& view) {
   put_whole(out, static_cast<int>(r.algorithm)), put_whole(out, static_cast<int>(r.shading));
   put_whole(out, r.shadows), put_whole(out, r.max_depth), put(out, r.weight_cutoff);
   put_whole(out, r.ray_budget), put_whole(out, r.seed), put_whole(out, static_cast<int>(r.terminator));
-  put_whole(out, static_cast<int>(r.filter));
+  put_whole(out, static_cast<int>(r.filter)), put_whole(out, r.tessellate), put(out, r.chord_error_px);
+  put_whole(out, r.hidden_lines);
   out += ";";
   put_whole(out, r.samples.value_or(-1)), put(out, r.rmse.value_or(-1.0)), put(out, r.time_ms.value_or(-1.0));
   put_whole(out, r.adaptive);

@@ -146,15 +146,11 @@ std::vector<Bad> bad_documents() {
       {"negative_depth", with(R"("render": {"max_depth": -1})"), "out_of_range", "/render/max_depth"},
       {"cutoff_over_1", with(R"("render": {"weight_cutoff": 1.5})"), "out_of_range", "/render/weight_cutoff"},
       {"negative_seed", with(R"("render": {"seed": -1})"), "out_of_range", "/render/seed"},
-      {"zbuffer", with(R"("render": {"algorithm": "zbuffer"})"), "not_in_this_release", "/render/algorithm"},
-      {"warnock", with(R"("render": {"algorithm": "warnock"})"), "not_in_this_release", "/render/algorithm"},
-      {"roberts", with(R"("render": {"algorithm": "roberts"})"), "not_in_this_release", "/render/algorithm"},
       {"raytracing", with(R"("render": {"algorithm": "raytracing"})"), "unknown_word", "/render/algorithm"},
-      {"flat", with(R"("render": {"shading": "flat"})"), "not_in_this_release", "/render/shading"},
-      {"gouraud", with(R"("render": {"shading": "gouraud"})"), "not_in_this_release", "/render/shading"},
+      {"toon", with(R"("render": {"shading": "toon"})"), "unknown_word", "/render/shading"},
       {"soft_terminator", with(R"("render": {"terminator": "soft"})"), "unknown_word", "/render/terminator"},
       {"triangle", with(R"("render": {"filter": "triangle"})"), "unknown_word", "/render/filter"},
-      {"tessellate", with(R"("render": {"tessellate": true})"), "not_in_this_release", "/render/tessellate"},
+      {"chord_error", with(R"("render": {"chord_error_px": 0})"), "out_of_range", "/render/chord_error_px"},
       {"rmse", with(R"("render": {"rmse": 0})"), "out_of_range", "/render/rmse"},
       {"half_a_pass", with(R"("render": {"passes": [0.5, 1]})"), "fractional_first_pass", "/render/passes"},
       {"half_a_pass_after_a_sketch", with(R"("render": {"passes": [0.0625, 0.5]})"), "fractional_first_pass",
@@ -199,7 +195,7 @@ TEST(Errors, PointIntoTheDocument) {
 TEST(Errors, ComeAllAtOnceInTheOrderOfTheText) {
   const auto errors = errors_of(R"({
   "image": {"width": 0},
-  "render": {"shading": "flat"},
+  "render": {"shading": "flot"},
   "lights": [{"type": "point", "position": [0, 0]}],
   "objects": [
     {"type": "sphere", "material": "gold", "raduis": 1},
@@ -209,7 +205,7 @@ TEST(Errors, ComeAllAtOnceInTheOrderOfTheText) {
 })");
   std::vector<std::string> found;
   for (const SceneError& e : errors) found.push_back(std::to_string(e.line) + " " + e.pointer + " " + e.code);
-  EXPECT_EQ(found, (std::vector<std::string>{"2 /image/width out_of_range", "3 /render/shading not_in_this_release",
+  EXPECT_EQ(found, (std::vector<std::string>{"2 /image/width out_of_range", "3 /render/shading unknown_word",
                                              "4 /lights/0/position wrong_length", "6 /objects/0/material unknown_name",
                                              "6 /objects/0/raduis unknown_key", "7 /objects/1/matrix singular",
                                              "8 /objects/2/min out_of_range"}));
@@ -245,9 +241,9 @@ TEST(Errors, SuggestWhatWasMeant) {
 }
 
 TEST(Errors, ListTheAllowedWords) {
-  const SceneError error = error_of(with(R"("render": {"algorithm": "zbuffer"})"), "not_in_this_release");
-  EXPECT_EQ(error.allowed, std::vector<std::string>{"raytrace"});
-  EXPECT_NE(error.detail.find("zbuffer"), std::string::npos);
+  const SceneError error = error_of(with(R"("render": {"algorithm": "painter"})"), "unknown_word");
+  EXPECT_EQ(error.allowed, (std::vector<std::string>{"raytrace", "zbuffer", "warnock", "roberts"}));
+  EXPECT_NE(error.detail.find("painter"), std::string::npos);
 }
 
 TEST(Errors, OfOneListDoNotCrowdOutTheOthers) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/raster/method.h"
+
+#include "renderer/raster/warnock.h"
+#include "renderer/raster/window_draw.h"
+#include "renderer/raster/zbuffer.h"
+
+namespace tilelight {
+namespace {
+
+class Raytrace final : public Method {
+ public:
+  explicit Raytrace(KernelVariant variant) : kernel_(kernel_of(variant)) {}
+  void draw(const TileJob& job) const override { kernel_(job); }
+
+ private:
+  const Kernel kernel_;
+};
+
+class Zbuffer final : public Method, public WindowFinder {
+ public:
+  Zbuffer(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) : raster_(scene, plan, pool) {}
+  void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
+  int64_t memory_bytes() const override { return raster_.memory_bytes(); }
+
+  std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {
+    std::vector<const RasterPrim*> prims = raster_.in_window(x, y);
+    for (VisibleWindow& layer : layers) draw_depths(prims, x * kWindowPx, y * kWindowPx, layer);
+    return prims;
+  }
+
+ private:
+  const RasterScene raster_;
+};
+
+class Warnock final : public Method, public WindowFinder {
+ public:
+  Warnock(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
+      : raster_(scene, plan, pool), subdivision_(raster_, pool) {}
+  void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
+  int64_t memory_bytes() const override { return raster_.memory_bytes() + subdivision_.memory_bytes(); }
+
+  std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {
+    return subdivision_.draw(x, y, layers);
+  }
+
+ private:
+  const RasterScene raster_;
+  const WarnockScene subdivision_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) {
+  switch (plan.view.render.algorithm) {
+    case Algorithm::zbuffer:
+      return std::make_unique<Zbuffer>(scene, plan, pool);
+    case Algorithm::warnock:
+      return std::make_unique<Warnock>(scene, plan, pool);
+    case Algorithm::raytrace:
+    case Algorithm::roberts:
+      break;
+  }
+  return std::make_unique<Raytrace>(plan.variant);
+}
+
+}  // namespace tilelight

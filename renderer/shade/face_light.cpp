@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/shade/face_light.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "renderer/base/hash.h"
+#include "renderer/base/safe_length.h"
+
+namespace tilelight {
+namespace {
+
+// The two axes along a box's face, and the face's own.
+struct FaceAxes {
+  int across, u, v;
+  explicit FaceAxes(uint32_t prim) : across(static_cast<int>(prim / 2)), u((across + 1) % 3), v((across + 2) % 3) {}
+};
+
+LocalPoint box_point(const CompiledBody& body, uint32_t prim, double u, double v) {
+  const FaceAxes axes(prim);
+  const double side = prim % 2 ? 1.0 : -1.0;
+  LocalPoint out;
+  out.position[axes.across] = side * body.half[axes.across];
+  out.position[axes.u] = u * body.half[axes.u];
+  out.position[axes.v] = v * body.half[axes.v];
+  out.geometric[axes.across] = side;
+  return out;
+}
+
+// Of a place between -half and half, from 0 to 1.
+double part_of(double place, double half) { return half > 0.0 ? std::clamp(0.5 + 0.5 * place / half, 0.0, 1.0) : 0.5; }
+
+}  // namespace
+
+FaceLight::FaceLight(const CompiledScene& scene, Shading shading, bool smooth_terminator)
+    : scene_(scene), shading_(shading), smooth_terminator_(smooth_terminator) {
+  if (shading == Shading::phong) return;
+  constexpr size_t kBytes = 1 << 18;  // beside rays and hits in L2
+  constexpr size_t kMostFaces = 256;
+  const size_t face_bytes = sizeof(Face) + kMostCorners * sizeof(Brought) * scene.lights.size();
+  kept_.resize(std::bit_floor(std::clamp<size_t>(kBytes / face_bytes, 1, kMostFaces)));
+}
+
+int FaceLight::corners_of(const CompiledBody& body) const {
+  if (shading_ == Shading::flat) return 1;
+  return body.kind == BodyKind::box ? 4 : 3;
+}
+
+LocalPoint FaceLight::corner(const CompiledBody& body, uint32_t prim, int index) const {
+  if (body.kind == BodyKind::box) {
+    if (shading_ == Shading::flat) return box_point(body, prim, 0.0, 0.0);
+    return box_point(body, prim, index & 1 ? 1.0 : -1.0, index & 2 ? 1.0 : -1.0);
+  }
+  if (shading_ == Shading::flat) {
+    LocalPoint middle = triangle_point(*body.mesh, prim, 1.0 / 3.0, 1.0 / 3.0);
+    middle.is_smooth = false;
+    return middle;
+  }
+  return triangle_point(*body.mesh, prim, index == 0 ? 1.0 : 0.0, index == 1 ? 1.0 : 0.0);
+}
+
+void FaceLight::find_weights(const CompiledBody& body, const Hit& hit, const Surface& surface) {
+  if (corners_ == 1) {
+    weights_[0] = 1.0;
+  } else if (corners_ == 3) {
+    weights_ = {hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1};
+  } else {
+    const FaceAxes axes(hit.prim);
+    const Vec3 local = transform_point(body.local_from_world, surface.position);
+    const double u = part_of(local[axes.u], body.half[axes.u]), v = part_of(local[axes.v], body.half[axes.v]);
+    weights_ = {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
+  }
+}
+
+void FaceLight::light_corners(const Ray& ray, const Hit& hit, const Vec4& viewer, Face& face) const {
+  face.body = hit.body, face.prim = hit.prim;
+  face.brought.clear();
+  const CompiledBody& body = scene_.bodies[hit.body];
+  for (int i = 0; i < corners_; ++i) {
+    Surface at = make_surface_at(scene_, ray, hit, corner(body, hit.prim, i));
+    at.diffuse = Color(1.0);
+    const bool is_rounded = shading_ != Shading::flat && at.is_rounded && smooth_terminator_;
+    const Vec3 to_viewer = unit_of(Vec3(viewer) - viewer.w * at.position);
+    for (const CompiledLight& light : scene_.lights) {
+      const LightSample sample = sample_light(scene_, light, at, to_viewer, is_rounded);
+      face.brought.push_back({sample.arriving, sample.diffuse, sample.specular, sample.is_lit});
+    }
+  }
+}
+
+void FaceLight::look_at(const Ray& ray, const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary) {
+  const CompiledBody& body = scene_.bodies[hit.body];
+  corners_ = corners_of(body);
+  surface_ = &surface;
+  find_weights(body, hit, surface);
+  if (!is_primary) {
+    light_corners(ray, hit, viewer, other_);
+    face_ = &other_;
+    return;
+  }
+  Face& face = kept_[mix64(static_cast<uint64_t>(hit.body) << 32 | hit.prim) & (kept_.size() - 1)];
+  if (face.body != hit.body || face.prim != hit.prim) light_corners(ray, hit, viewer, face);
+  face_ = &face;
+}
+
+LightSample FaceLight::sample(size_t light) const {
+  LightSample out;
+  const CompiledLight& source = scene_.lights[light];
+  if (source.kind == LightKind::directional) {
+    out.to_light = source.to_light;
+    out.distance = std::numeric_limits<double>::infinity();
+  } else {
+    const Vec3 path = source.position - surface_->position;
+    out.distance = glm::length(path);
+    if (!(out.distance > 0.0)) return out;
+    out.to_light = path / out.distance;
+  }
+  for (int i = 0; i < corners_; ++i) {
+    const Brought& brought = face_->brought[static_cast<size_t>(i) * scene_.lights.size() + light];
+    out.is_lit |= brought.is_lit;
+    out.arriving += weights_[i] * brought.arriving;
+    out.diffuse += weights_[i] * brought.diffuse;
+    out.specular += weights_[i] * brought.specular;
+  }
+  out.diffuse *= surface_->diffuse;
+  return out;
+}
+
+}  // namespace tilelight
