@@ -181,6 +181,47 @@ void add_chess(CLI::App& app, Run& run) {
   });
 }
 
+void add_compare(CLI::App& app, Run& run) {
+  struct Options {
+    std::string scene;
+    CompareArguments compare;
+  };
+  const auto options = std::make_shared<Options>();
+  CompareArguments& compare = options->compare;
+  CLI::App* command = app.add_subcommand("compare", "Draw a scene by several methods and lay them side by side");
+  add_scene_option(*command, options->scene);
+  command->add_option("-o,--output", compare.output, "The folder for compare.html and the pictures beside it")
+      ->required();
+  command->add_option("--methods", compare.methods, "Hidden-surface methods, by commas; all without it")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names_of(kAlgorithms)));
+  command->add_option("--shadings", compare.shadings, "Shading rules, by commas; all without it")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names_of(kShadings)));
+  command->add_option("--samples", compare.samples, "Samples a pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->add_option("--rounds", compare.rounds, "How often each is timed")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
+  command->add_option("--width", compare.view.width, "Pixels");
+  command->add_option("--height", compare.view.height, "Pixels");
+  command->add_option("--threads", compare.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
+  add_isa_option(*command, compare.isa);
+  command->footer(
+      "Pictures, what they cost, what the methods did for them, and how they differ from the whole light model and\n"
+      "from rays that draw the same.\n"
+      "Examples:\n  tilelight compare scene.json -o compare\n"
+      "  tilelight compare scene.json --methods raytrace,zbuffer --shadings gouraud,phong -o compare");
+  command->callback([options, &run] {
+    run = [options] {
+      const auto source = read_scene(options->scene);
+      if (const ExitCode* code = std::get_if<ExitCode>(&source)) return *code;
+      return run_compare(std::get<SceneText>(source), options->compare);
+    };
+  });
+}
+
 void add_check(CLI::App& app, Run& run) {
   const auto options = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "Run the stress catalogue: hard scenes with known answers");
@@ -219,6 +260,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_render(app, run);
   add_plan(app, run);
   add_report(app, run);
+  add_compare(app, run);
   add_chess(app, run);
   add_check(app, run);
   add_schema(app, run);

@@ -42,6 +42,16 @@ struct ReportArguments {
 };
 ExitCode run_report(const SceneText& source, const ReportArguments& arguments);
 
+struct CompareArguments {
+  std::string output;                          // a folder, made if it is not there
+  std::vector<std::string> methods, shadings;  // words of the scene language; none: all
+  ViewOptions view;                            // of it width and height
+  int samples = 4, rounds = 3;
+  int threads = 0;
+  std::string isa = "auto";
+};
+ExitCode run_compare(const SceneText& source, const CompareArguments& arguments);
+
 struct CheckArguments {
   std::vector<std::string> only;  // ids of rows, or their letters; empty: all
   bool is_quick = false;

@@ -106,7 +106,7 @@ ExitCode run_plan(const SceneText& source, const PlanArguments& arguments) {
   const ViewPlan plan = plan_view(*compiled, document.view);
   print_warnings(source.name, plan.plan.warnings);
   std::ostringstream out;
-  const CostPrediction cost = predict_cost(*compiled, plan, pool.thread_count());
+  const CostPrediction cost = predict_cost(compiled, plan, pool);
   if (arguments.json) {
     out << R"({"predicted":)" << cost_json(cost) << R"(,"plan":)" << plan_json(plan.plan) << "}\n";
   } else {

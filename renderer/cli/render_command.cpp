@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/cli/files.h"
 #include "renderer/cli/interrupt.h"
 #include "renderer/cli/progress_line.h"
@@ -10,11 +11,6 @@
 
 namespace tilelight::cli {
 namespace {
-
-ExitCode complain(ExitCode code, const std::string& what) {
-  std::fprintf(stderr, "tilelight: %s\n", what.c_str());
-  return code;
-}
 
 // Everything that can be refused before a ray is traced.
 ExitCode check_arguments(const RenderArguments& arguments) {
@@ -29,8 +25,9 @@ ExitCode check_arguments(const RenderArguments& arguments) {
   return kOk;
 }
 
-ExitCode explain(const CompiledScene& scene, const ViewPlan& plan, const RenderArguments& arguments) {
-  const auto json = explain_pixel_json(scene, plan, arguments.pixel[0], arguments.pixel[1], arguments.sample);
+ExitCode explain(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool,
+                 const RenderArguments& arguments) {
+  const auto json = explain_pixel_json(scene, plan, pool, arguments.pixel[0], arguments.pixel[1], arguments.sample);
   if (!json) return complain(kBadInput, json.error().detail);
   std::printf("%s\n", json->c_str());
   return kOk;
@@ -92,7 +89,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   const auto compiled = compile_scene(scene, pool);
   const ViewPlan plan = plan_view(*compiled, view);
   print_warnings(source.name, plan.plan.warnings);
-  if (!arguments.pixel.empty()) return explain(*compiled, plan, arguments);
+  if (!arguments.pixel.empty()) return explain(compiled, plan, pool, arguments);
   if (is_interrupted()) return kInterrupted;
 
   RenderOptions options;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/cli/files.h"
 #include "renderer/cli/interrupt.h"
 #include "renderer/cli/progress_line.h"
@@ -12,11 +13,6 @@
 
 namespace tilelight::cli {
 namespace {
-
-ExitCode complain(ExitCode code, const std::string& what) {
-  std::fprintf(stderr, "tilelight: %s\n", what.c_str());
-  return code;
-}
 
 // The files of the study, each whole or not at all.
 ExitCode write_files(const Study& study, const std::filesystem::path& folder) {

@@ -43,8 +43,9 @@ int64_t tessellated_triangles(const CompiledScene& scene, const Eye& eye, double
   return sum;
 }
 
-std::shared_ptr<const CompiledScene> tessellate(const std::shared_ptr<const CompiledScene>& scene, const Eye& eye,
-                                                double chord_error_px, TilePool& pool) {
+std::shared_ptr<const CompiledScene> drawn_scene(const std::shared_ptr<const CompiledScene>& scene,
+                                                 const ViewPlan& plan, TilePool& pool) {
+  if (!is_tessellated(plan.view.render)) return scene;
   if (std::none_of(scene->bodies.begin(), scene->bodies.end(), is_sphere)) return scene;
   auto out = std::make_shared<CompiledScene>(*scene);
   struct Made {
@@ -54,7 +55,7 @@ std::shared_ptr<const CompiledScene> tessellate(const std::shared_ptr<const Comp
   std::map<int, Made> made;
   for (CompiledBody& body : out->bodies) {
     if (!is_sphere(body)) continue;
-    const int detail = sphere_detail(body, eye, chord_error_px);
+    const int detail = sphere_detail(body, plan.eye, plan.view.render.chord_error_px);
     Made& one = made[detail];
     if (!one.mesh) {
       out->meshes.push_back(compile_mesh(make_sphere_mesh(detail)));

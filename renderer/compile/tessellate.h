@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "renderer/compile/compile.h"
 #include "renderer/compile/compiled_scene.h"
-#include "renderer/compile/eye.h"
 
 namespace tilelight {
 
@@ -18,8 +18,9 @@ int sphere_detail(const CompiledBody& sphere, const Eye& eye, double chord_error
 // Triangles that the spheres of a scene become.
 int64_t tessellated_triangles(const CompiledScene& scene, const Eye& eye, double chord_error_px);
 
-// The same scene with its spheres as meshes; bodies keep their places. The scene itself where it has no spheres.
-std::shared_ptr<const CompiledScene> tessellate(const std::shared_ptr<const CompiledScene>& scene, const Eye& eye,
-                                                double chord_error_px, TilePool& pool);
+// What the view is drawn from: the same scene with its spheres as meshes, if the view asks for triangles; bodies keep
+// their places. The scene itself where nothing changes.
+std::shared_ptr<const CompiledScene> drawn_scene(const std::shared_ptr<const CompiledScene>& scene,
+                                                 const ViewPlan& plan, TilePool& pool);
 
 }  // namespace tilelight

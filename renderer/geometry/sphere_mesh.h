@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The unit sphere as triangles: rows of latitude, with as many triangles towards the poles as the circle there is
-// shorter, so that all are nearly of one size. Corners lie on the sphere; normals are the sphere's.
+// The unit sphere as triangles: an octahedron's faces, cut finely and blown up. Corners lie on the sphere; normals are
+// the sphere's.
 #pragma once
 
 #include "renderer/geometry/tri_mesh.h"

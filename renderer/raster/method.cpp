@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/raster/method.h"
 
+#include "renderer/raster/raster_work.h"
 #include "renderer/raster/warnock.h"
 #include "renderer/raster/window_draw.h"
 #include "renderer/raster/zbuffer.h"
@@ -21,6 +22,7 @@ class Zbuffer final : public Method, public WindowFinder {
  public:
   Zbuffer(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) : raster_(scene, plan, pool) {}
   void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
+  MethodWork work() const override { return zbuffer_work(raster_); }
   int64_t memory_bytes() const override { return raster_.memory_bytes(); }
 
   std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {
@@ -38,6 +40,7 @@ class Warnock final : public Method, public WindowFinder {
   Warnock(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
       : raster_(scene, plan, pool), subdivision_(raster_, pool) {}
   void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
+  MethodWork work() const override { return warnock_work(raster_, subdivision_); }
   int64_t memory_bytes() const override { return raster_.memory_bytes() + subdivision_.memory_bytes(); }
 
   std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {

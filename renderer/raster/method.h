@@ -4,16 +4,33 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "renderer/trace/tile_job.h"
 
 namespace tilelight {
+
+// What a method has to do for one sample of every pixel, beside shading.
+struct MethodWork {
+  struct Count {
+    std::string name;  // "windows divided", ...
+    double value = 0.0;
+  };
+  std::vector<Count> counts;
+  // Where in the picture the work lies, linear; and what it shows.
+  std::optional<Image> picture;
+  std::string caption;
+};
 
 class Method {
  public:
   virtual ~Method() = default;
   // Draws the samples of one work item.
   virtual void draw(const TileJob& job) const = 0;
+  // Found anew by every call, at the price of about one sample of every pixel.
+  virtual MethodWork work() const { return {}; }
   virtual int64_t memory_bytes() const { return 0; }
 };
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/standard_floats.h"
+#include "renderer/compile/tessellate.h"
 #include "renderer/film/tone.h"
 #include "renderer/render/explain.h"
 #include "renderer/trace/tile_job.h"
@@ -78,7 +79,8 @@ class Explainer : public RayListener {
 
 }  // namespace
 
-Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPlan& plan, int x, int y, int sample) {
+Result<std::string> explain_pixel_json(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan,
+                                       TilePool& pool, int x, int y, int sample) {
   const StandardFloats floats;
   const ImageSpec& image = plan.view.image;
   if (sample < 0) return fail("out_of_range", "found sample " + std::to_string(sample) + "; allowed: 0 and more");
@@ -88,9 +90,10 @@ Result<std::string> explain_pixel_json(const CompiledScene& scene, const ViewPla
                                     "; allowed: 0.." + std::to_string(image.width - 1) + ", 0.." +
                                     std::to_string(image.height - 1));
   }
-  Explainer explainer(scene);
+  const auto drawn = drawn_scene(scene, plan, pool);
+  Explainer explainer(*drawn);
   const TileCounts counts =
-      explain(scene, plan, EyeMedia(scene, plan), {x, y, x + 1, y + 1}, static_cast<uint32_t>(sample), explainer);
+      explain(*drawn, plan, EyeMedia(*drawn, plan), {x, y, x + 1, y + 1}, static_cast<uint32_t>(sample), explainer);
 
   Json srgb = Json::array();
   for (int c = 0; c < 3; ++c) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/render/predict.h"
 
+#include "renderer/compile/tessellate.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -149,14 +151,15 @@ double sober_decay(const Probe& probe) {
 
 }  // namespace
 
-CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, int threads) {
+CostPrediction predict_cost(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool) {
   const StandardFloats floats;
   const auto start = std::chrono::steady_clock::now();
-  Probe probe = probe_view(scene, plan);
+  const int threads = pool.thread_count();
+  Probe probe = probe_view(*drawn_scene(scene, plan, pool), plan);
   probe.decay = sober_decay(probe);
   const double pixels = plan.view.image.width * static_cast<double>(plan.view.image.height);
   const double cpu_ms_a_sample = kReporting * pixels * probe.rays_per_sample * probe.ms_per_ray;
-  const double ms_a_sample = cpu_ms_a_sample / std::max(1, threads);
+  const double ms_a_sample = cpu_ms_a_sample / threads;
   const RenderSpec& spec = plan.view.render;
 
   const Outcome middle = Model(probe, spec, ms_a_sample, 1.0).run();
@@ -164,7 +167,7 @@ CostPrediction predict_cost(const CompiledScene& scene, const ViewPlan& plan, in
   out.spp = middle.spp;
   out.mrays = 1e-6 * pixels * probe.rays_per_sample * middle.mean_samples;
   out.elapsed_ms = out.elapsed_low_ms = out.elapsed_high_ms = middle.elapsed_ms;
-  out.cpu_ms = middle.elapsed_ms * std::max(1, threads);
+  out.cpu_ms = middle.elapsed_ms * threads;
   out.rmse = out.rmse_low = out.rmse_high = middle.rmse;
   const double price = kNormal95 * kPriceDeviation, error = kNormal95 * error_deviation(probe);
   for (const double sign_of_price : {-1.0, 1.0}) {

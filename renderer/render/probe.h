@@ -20,7 +20,8 @@ struct Probe {
 };
 inline constexpr uint32_t kProbeSamples = 16;
 
-// On the calling thread: most take some 30 ms, and a scene whose samples are very dear eight of them at least.
+// scene: as drawn_scene gives it. On the calling thread: most take some 30 ms, and a scene whose samples are very dear
+// eight of them at least.
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan);
 
 }  // namespace tilelight

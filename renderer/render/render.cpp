@@ -566,9 +566,8 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view) { return plan_v
 std::shared_ptr<Render> Render::start(TilePool& pool, Priority priority, std::shared_ptr<const CompiledScene> scene,
                                       ViewPlan plan, RenderOptions options) {
   const StandardFloats floats;
-  const RenderSpec& spec = plan.view.render;
-  if (is_tessellated(spec)) scene = tessellate(scene, plan.eye, spec.chord_error_px, pool);
-  auto render = std::make_shared<TileRender>(pool, std::move(scene), std::move(plan), std::move(options));
+  auto drawn = drawn_scene(scene, plan, pool);
+  auto render = std::make_shared<TileRender>(pool, std::move(drawn), std::move(plan), std::move(options));
   pool.add(render, priority);
   return render;
 }

@@ -42,7 +42,7 @@ std::vector<OracleRow> ask_oracle(const Studio& studio, const std::shared_ptr<co
   for (const Rule& rule : rules_of(view, uniform)) {
     OracleRow row;
     row.rule = rule.name;
-    row.predicted = predict_cost(*scene, plan_view(*scene, rule.view), studio.pool().thread_count());
+    row.predicted = predict_cost(scene, plan_view(*scene, rule.view), studio.pool());
     const auto drawings = studio.draw_rounds(scene, rule.view);
     StudyRun run;
     time_run(run, drawings);

@@ -22,7 +22,8 @@ constexpr uint32_t kReferenceSeed = 1'000'000'007;  // far from those of the rou
 constexpr int kReferenceOverFinest = 32;  // samples of each half of the reference over those of the finest run
 constexpr int kMostDoublings = 2;         // of the reference, until it is ten times as good as the best run
 constexpr int kTwinRounds = 2;
-constexpr double kScored = 4.0;  // samples from which a curve's slope counts
+constexpr int kMostOfOthers = 16;  // samples, of methods whose error is soon that of their light
+constexpr double kScored = 4.0;    // samples from which a curve's slope counts
 
 // A series and, until it has been judged, its pictures.
 struct Drawn {
@@ -56,9 +57,14 @@ class Maker {
     view_ = plan.view;
 
     std::vector<Drawn> all;
-    for (const auto& algorithm : kAlgorithms) {
-      for (const auto& shading : kShadings) {
-        for (const bool is_adaptive : {false, true}) all.push_back(ask_series(algorithm, shading, is_adaptive));
+    // The whole light model first: it has the reference's light, and the others are compared with it.
+    for (const bool is_adaptive : {false, true})
+      all.push_back(ask_series(Algorithm::raytrace, Shading::phong, is_adaptive, studio_.options().most_samples));
+    for (const auto& [algorithm, name] : kAlgorithms) {
+      if (algorithm == Algorithm::roberts) continue;  // lines are no picture of the same light
+      for (const auto& [shading, shading_name] : kShadings) {
+        if (algorithm == Algorithm::raytrace && shading == Shading::phong) continue;
+        all.push_back(ask_series(algorithm, shading, false, std::min(kMostOfOthers, studio_.options().most_samples)));
       }
     }
     draw_rounds(all);
@@ -88,9 +94,8 @@ class Maker {
 
  private:
   // The runs of a series, not yet drawn.
-  template <class Algorithm, class Shading>
-  Drawn ask_series(const Algorithm& algorithm, const Shading& shading, bool is_adaptive) const {
-    const std::string method(algorithm.name), shading_name(shading.name);
+  Drawn ask_series(Algorithm algorithm, Shading shading, bool is_adaptive, int most_samples) const {
+    const std::string method(get_word(kAlgorithms, algorithm)), shading_name(get_word(kShadings, shading));
     const std::string sampling = is_adaptive ? "adaptive" : "uniform";
     Drawn out{{.name = method + ", " + shading_name + ", " + sampling,
                .method = method,
@@ -99,10 +104,10 @@ class Maker {
                .precision = "float filter, double"},
               {},
               {}};
-    for (int samples = is_adaptive ? 8 : 1; samples <= studio_.options().most_samples; samples *= 2) {
+    for (int samples = is_adaptive ? 8 : 1; samples <= most_samples; samples *= 2) {
       View view = with_samples(view_, samples, is_adaptive);
-      view.render.algorithm = algorithm.value;
-      view.render.shading = shading.value;
+      view.render.algorithm = algorithm;
+      view.render.shading = shading;
       out.views.push_back(view);
       StudyRun run;
       run.asked_samples = samples;

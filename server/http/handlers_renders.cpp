@@ -163,9 +163,9 @@ Reply get_render_pixel(Services& services, const Request& request) {
   if (!slot) return ::tl::unexpected(slot.error());
   const auto compiled = wait_compiled(services, request, work->request().scene, Priority::normal);
   if (!compiled) return ::tl::unexpected(compiled.error());
-  const CompiledScene& scene = **compiled;
-  auto json = explain_pixel_json(scene, plan_view(scene, work->request().view), static_cast<int>(*x),
-                                 static_cast<int>(*y), static_cast<int>(*sample));
+  const ViewPlan plan = plan_view(**compiled, work->request().view);
+  auto json = explain_pixel_json(*compiled, plan, services.pool, static_cast<int>(*x), static_cast<int>(*y),
+                                 static_cast<int>(*sample));
   if (!json) return problem(422, json.error().code, json.error().detail);
   return json_response(200, std::move(*json)).with("Cache-Control", "no-cache");
 }

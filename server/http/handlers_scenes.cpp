@@ -19,7 +19,7 @@ Reply plan_response(Services& services, const Request& request, const ScenePtr& 
   if (!compiled) return ::tl::unexpected(compiled.error());
   const ViewPlan plan = plan_view(**compiled, view);
   // On the pool, as all tracing is; what it throws comes back here.
-  const auto predict = [&] { return predict_cost(**compiled, plan, services.pool.thread_count()); };
+  const auto predict = [&] { return predict_cost(*compiled, plan, services.pool); };
   const CostPrediction cost = services.pool.submit(Priority::normal, predict).get();
   return json_response(200, plan_document(scene->parsed.scene_id, warnings, plan, cost))
       .with("Cache-Control", "no-cache");

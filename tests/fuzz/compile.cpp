@@ -71,7 +71,7 @@ void check_view(std::shared_ptr<const CompiledScene> scene, View view, TilePool&
   REQUIRE(render->progress().state == RenderState::done, told + render->progress().error);
   REQUIRE(render->report().points.back().nonfinite == 0, told);
   for (const float value : render->image()->rgb) REQUIRE(std::isfinite(value) && value >= 0.0f, told);
-  REQUIRE(explain_pixel_json(*scene, plan, 3, 2, 0), told);
+  REQUIRE(explain_pixel_json(scene, plan, pool, 3, 2, 0), told);
 }
 
 }  // namespace

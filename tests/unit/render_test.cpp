@@ -269,7 +269,7 @@ TEST(Render, TellsAnErrorAtEveryExposureThatIsAllowed) {
     EXPECT_LE(error.rmse, 1.0) << exposure;
     EXPECT_LE(error.most, 2.0) << exposure;
     for (const float bound : *render->error_bounds()) EXPECT_TRUE(bound >= 0.0f && bound < 2.0f) << exposure;
-    predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
+    predict_cost(p.scene, plan_view(*p.scene, p.view), pool);
   }
 }
 
@@ -349,7 +349,7 @@ TEST(PredictCost, ForetellsTheRaysOfTheRender) {
   p.view.image.width = 200, p.view.image.height = 120;
   p.view.render.samples = 4;
   const ViewPlan plan = plan_view(*p.scene, p.view);
-  const CostPrediction cost = predict_cost(*p.scene, plan, 2);
+  const CostPrediction cost = predict_cost(p.scene, plan, pool);
   const auto render = Render::start(pool, Priority::normal, p.scene, plan);
   ASSERT_TRUE(render->wait_ms(1e12));
   const double mrays = 1e-6 * static_cast<double>(render->report().points.back().rays.total());
@@ -358,7 +358,7 @@ TEST(PredictCost, ForetellsTheRaysOfTheRender) {
   EXPECT_DOUBLE_EQ(cost.elapsed_ms, cost.cpu_ms / 2);
 
   p.view.render.time_ms = 1e-3;
-  const CostPrediction cut = predict_cost(*p.scene, plan_view(*p.scene, p.view), 2);
+  const CostPrediction cut = predict_cost(p.scene, plan_view(*p.scene, p.view), pool);
   EXPECT_NEAR(cut.mrays / cost.mrays, 1.0 / 64.0, 1e-3) << "of four samples a pixel, one in a pixel of sixteen";
 }
 
@@ -369,7 +369,7 @@ TEST(PredictCost, HoldsForOnePixelAndForAnImageOfOneRow) {
   for (const auto& [width, height] : {std::pair{1, 1}, {5000, 1}, {1, 5000}, {3, 2}}) {
     p.view.image.width = width, p.view.image.height = height;
     // Nothing to light and nothing to mirror: the primary rays are all there are.
-    EXPECT_NEAR(predict_cost(*p.scene, plan_view(*p.scene, p.view), 1).mrays, 3e-6 * width * height, 1e-12);
+    EXPECT_NEAR(predict_cost(p.scene, plan_view(*p.scene, p.view), pool).mrays, 3e-6 * width * height, 1e-12);
   }
 }
 

@@ -99,10 +99,7 @@ TEST(Schema, StatesTheDefaultsThatHold) {
 }
 
 TEST(Schema, NamesNothingThatThisReleaseCannotDo) {
-  const std::string schema = scene_schema_json(Limits{});
-  for (const char* word : {"zbuffer", "warnock", "roberts", "flat\"", "gouraud", "asset"}) {
-    EXPECT_EQ(schema.find(word), std::string::npos) << word;
-  }
+  EXPECT_EQ(scene_schema_json(Limits{}).find("asset"), std::string::npos);
 }
 
 }  // namespace

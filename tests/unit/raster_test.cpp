@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// The methods that work on triangles, as renders show them: beside each other, beside rays, and beside what light on a
+// face comes to by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "renderer/compile/tessellate.h"
+#include "renderer/geometry/sphere_mesh.h"
+#include "renderer/render/render.h"
+#include "renderer/scene/parse.h"
+#include "renderer/trace/isa.h"
+
+namespace tilelight {
+namespace {
+
+// Spheres, boxes that go through each other, a plane to the horizon, a mesh, a checker, both kinds of light.
+constexpr const char* kScene = R"({
+  "image": {"width": 141, "height": 93},
+  "camera": {"position": [4, 3, 6], "target": [0, 0.5, 0]},
+  "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 6},
+             {"type": "directional", "direction": [-1, -2, -1], "intensity": 0.4}],
+  "materials": {"tiles": {"diffuse": {"checker": {"a": 0.9, "b": 0.1, "size": 0.5}}},
+                "shiny": {"diffuse": [0.8, 0.3, 0.2], "specular": 0.5, "shininess": 20}},
+  "objects": [{"type": "plane", "point": [0, -0.01, 0], "material": "tiles"},
+              {"type": "cube", "center": [0, 0.5, 0], "material": "shiny"},
+              {"type": "cube", "center": [0.3, 0.7, 0.2], "rotate_deg": {"axis": [1, 2, 3], "angle": 37}},
+              {"type": "sphere", "center": [-1.5, 0.8, 0], "radius": 0.8, "material": "shiny"},
+              {"type": "chess_piece", "piece": "knight", "position": [1.5, 0, 0.5], "detail": 16}]})";
+
+struct Picture {
+  std::shared_ptr<const Image> image;
+  ViewPlan plan;
+};
+
+Picture draw(const std::string& json, const std::function<void(View&)>& change, RenderOptions options = {},
+             int threads = 2) {
+  const auto parsed = parse_scene(json, Limits{});
+  if (!parsed) throw std::runtime_error(parsed.error().errors.at(0).detail);
+  TilePool pool(threads);
+  View view = parsed->view;
+  change(view);
+  const auto scene = compile_scene(parsed->scene, pool);
+  const ViewPlan plan = plan_view(*scene, view);
+  const auto render = Render::start(pool, Priority::normal, scene, plan, std::move(options));
+  EXPECT_TRUE(render->wait_ms(1e12));
+  EXPECT_EQ(render->progress().state, RenderState::done) << render->progress().error;
+  EXPECT_EQ(render->report().points.back().nonfinite, 0);
+  return {render->image(), plan};
+}
+
+std::function<void(View&)> by(Algorithm algorithm, Shading shading = Shading::phong, int samples = 1) {
+  return [=](View& view) {
+    view.render.algorithm = algorithm;
+    view.render.shading = shading;
+    view.render.samples = samples;
+    view.render.max_depth = 0;
+    view.render.tessellate = true;
+  };
+}
+
+// Part of the pixels that differ by more than a 512th of the range of light.
+double part_that_differs(const Image& a, const Image& b) {
+  int64_t differing = 0;
+  for (size_t i = 0; i < a.rgb.size(); i += 3) {
+    float most = 0.0f;
+    for (size_t c = i; c < i + 3; ++c) most = std::max(most, std::fabs(a.rgb[c] - b.rgb[c]));
+    differing += most > 1.0f / 512;
+  }
+  return static_cast<double>(differing) / (static_cast<double>(a.width) * a.height);
+}
+
+TEST(Raster, WarnockAndZbufferGiveTheSameBytes) {
+  for (const auto filter : {PixelFilter::box, PixelFilter::tent, PixelFilter::gaussian}) {
+    for (const auto shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+      const auto with = [&](Algorithm algorithm) {
+        return draw(kScene, [&](View& view) {
+          by(algorithm, shading, 5)(view);
+          view.render.filter = filter;
+        });
+      };
+      EXPECT_EQ(with(Algorithm::zbuffer).image->rgb, with(Algorithm::warnock).image->rgb);
+    }
+  }
+}
+
+TEST(Raster, ShowsWhatRaysShow) {
+  for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+    for (const auto shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+      const auto with = [&](Algorithm algorithm) {
+        return draw(kScene, [&](View& view) {
+          by(algorithm, shading)(view);
+          view.camera->projection = projection;
+          view.camera->height = 4.0;
+        });
+      };
+      const Image rays = *with(Algorithm::raytrace).image, raster = *with(Algorithm::zbuffer).image;
+      EXPECT_LE(part_that_differs(rays, raster), 5e-3) << "in a small picture with much to see";
+    }
+  }
+}
+
+TEST(Raster, GivesTheSameBytesOnAnyThreadsTilesAndCpu) {
+  for (const auto algorithm : {Algorithm::zbuffer, Algorithm::warnock}) {
+    const auto change = by(algorithm, Shading::gouraud, 3);
+    const auto expected = draw(kScene, change).image->rgb;
+    for (const auto& [threads, tile] : {std::pair{1, 16}, {7, 8}, {3, 4}, {2, 64}}) {
+      RenderOptions options;
+      options.tile_px = tile;
+      EXPECT_EQ(draw(kScene, change, options, threads).image->rgb, expected) << threads << ", " << tile;
+    }
+    for (const std::string& isa : available_isas()) {
+      ASSERT_TRUE(select_isa(isa));
+      EXPECT_EQ(draw(kScene, change).image->rgb, expected) << isa;
+    }
+    ASSERT_TRUE(select_isa("auto"));
+  }
+}
+
+TEST(Raster, GoesWhereTheErrorIsAndByRulesOnErrorAndTime) {
+  const auto adaptive = [](Algorithm algorithm) {
+    return draw(kScene, [&](View& view) {
+      by(algorithm, Shading::phong, 32)(view);
+      view.render.rmse = 0.012;
+      view.render.adaptive = true;
+    });
+  };
+  EXPECT_EQ(adaptive(Algorithm::zbuffer).image->rgb, adaptive(Algorithm::warnock).image->rgb);
+  draw(kScene, [&](View& view) {
+    by(Algorithm::zbuffer, Shading::phong, 4096)(view);
+    view.render.time_ms = 20.0;
+  });
+}
+
+TEST(Raster, SeesAFloorBetweenTheEyeAndTheHorizonAlone) {
+  // The horizon of a plane under a level eye is the middle of the picture.
+  const char* scene = R"({"image": {"width": 32, "height": 64}, "background": {"bottom": 0, "top": 0},
+    "camera": {"position": [0, 1, 0], "target": [0, 1, -1]}, "ambient": 1, "lights": [],
+    "objects": [{"type": "plane", "material": {"ambient": 1}}]})";
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer, Algorithm::warnock}) {
+    const auto image = draw(scene, by(algorithm)).image;
+    for (int y = 0; y < 64; ++y) EXPECT_EQ(image->rgb[static_cast<size_t>(y) * 32 * 3], y < 32 ? 0.0f : 1.0f) << y;
+  }
+}
+
+TEST(Raster, KnowsLocalLightAloneAndSaysSo) {
+  const Picture picture = draw(R"({"objects": [{"type": "sphere", "material": {"reflection": 0.5}}],
+                                   "image": {"width": 64, "height": 48}})",
+                               [](View& view) {
+                                 view.render.algorithm = Algorithm::zbuffer;
+                                 view.render.samples = 1;
+                               });
+  EXPECT_EQ(picture.plan.plan.kernel, "zbuffer, local");
+  const auto& left_out = picture.plan.plan.left_out;
+  const auto says = [&](const std::string& what, const std::string& why) {
+    return std::any_of(left_out.begin(), left_out.end(),
+                       [&](const LeftOut& l) { return l.what == what && l.why.find(why) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("feature reflection", "zbuffer knows local light only"));
+  EXPECT_TRUE(says("feature spheres", "triangles"));
+}
+
+// A triangle in the plane z = 0, seen head on in parallel, lit by a light at (0, 0, 1) without attenuation: at a place
+// r from the origin the cosine is 1 / sqrt(1 + r^2).
+constexpr const char* kTriangle = R"({
+  "image": {"width": 200, "height": 200}, "ambient": 0, "attenuation": {"mode": "none"},
+  "camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": 4},
+  "lights": [{"type": "point", "position": [0, 0, 1], "intensity": 1}],
+  "meshes": {"t": {"positions": [-1, -1, 0, 1, -1, 0, -1, 1, 0], "indices": [0, 1, 2]}},
+  "background": {"bottom": 0, "top": 0},
+  "objects": [{"type": "mesh", "mesh": "t", "material": {"diffuse": 1}}]})";
+
+float at(const Image& image, int x, int y) { return image.rgb[(static_cast<size_t>(y) * image.width + x) * 3]; }
+
+TEST(Shading, FlatLightsAFaceOnceAtItsMiddle) {
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
+    const auto image = draw(kTriangle, by(algorithm, Shading::flat)).image;
+    const double middle = 1.0 / std::sqrt(1.0 + 2.0 / 9.0);  // at (-1/3, -1/3)
+    for (const auto& [x, y] : {std::pair{55, 145}, {100, 145}, {55, 100}, {70, 120}})
+      EXPECT_NEAR(at(*image, x, y), middle, 1e-6) << x << ", " << y;
+  }
+}
+
+TEST(Shading, GouraudIsLinearBetweenTheCorners) {
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
+    const auto image = draw(kTriangle, by(algorithm, Shading::gouraud)).image;
+    // All corners are sqrt 2 from the origin: no highlight in the middle.
+    for (const auto& [x, y] : {std::pair{55, 145}, {99, 145}, {55, 101}, {70, 120}})
+      EXPECT_NEAR(at(*image, x, y), 1.0 / std::sqrt(3.0), 1e-6) << x << ", " << y;
+  }
+}
+
+TEST(Shading, PhongIsLitByThePoint) {
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
+    const auto image = draw(kTriangle, by(algorithm, Shading::phong)).image;
+    for (const auto& [x, y] : {std::pair{55, 145}, {98, 101}, {55, 101}, {70, 120}}) {
+      const double px = (x + 0.5 - 100.0) / 50.0, py = (100.0 - y - 0.5) / 50.0;
+      EXPECT_NEAR(at(*image, x, y), 1.0 / std::sqrt(1.0 + px * px + py * py), 8e-3) << "up to half a pixel";
+    }
+  }
+}
+
+TEST(Shading, GouraudOnABoxsFaceIsBilinear) {
+  const char* scene = R"({
+    "image": {"width": 100, "height": 100}, "ambient": 0, "attenuation": {"mode": "none"},
+    "camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": 2},
+    "lights": [{"type": "point", "position": [-1, -1, 1], "intensity": 1}],
+    "objects": [{"type": "box", "min": [-1, -1, -1], "max": [1, 1, 0], "material": {"diffuse": 1}}]})";
+  const double near = 1.0, side = 1.0 / std::sqrt(5.0), far = 1.0 / 3.0;  // cosines at the corners
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
+    const auto image = draw(scene, by(algorithm, Shading::gouraud)).image;
+    EXPECT_NEAR(at(*image, 50, 50), 0.25 * (near + 2.0 * side + far), 6e-3);
+    EXPECT_NEAR(at(*image, 25, 75), 0.5625 * near + 0.375 * side + 0.0625 * far, 8e-3);
+  }
+}
+
+TEST(Shading, ShadowsFallByThePointWhateverTheShading) {
+  // A small box above the middle of a floor, lit from straight above: its shadow has a sharp rim.
+  const char* scene = R"({
+    "image": {"width": 100, "height": 100}, "ambient": 0, "attenuation": {"mode": "none"},
+    "camera": {"type": "orthographic", "position": [0, 1, 0], "target": [0, 0, 0], "up": [0, 0, -1], "height": 4},
+    "lights": [{"type": "directional", "direction": [0, -1, 0], "intensity": 1}],
+    "objects": [{"type": "box", "min": [-2, -1, -2], "max": [2, 0, 2], "material": {"diffuse": 1}},
+                {"type": "box", "min": [-1, 2, -1], "max": [1, 3, 1]}]})";
+  for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer, Algorithm::warnock}) {
+    for (const auto shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+      const auto image = draw(scene, by(algorithm, shading)).image;
+      for (int x = 0; x < 100; ++x) {
+        if (x == 24 || x == 25 || x == 74 || x == 75) continue;  // the rim
+        EXPECT_FLOAT_EQ(at(*image, x, 50), x < 25 || x > 74 ? 1.0f : 0.0f) << x;
+      }
+    }
+  }
+}
+
+TEST(SphereMesh, LiesAsNearTheSphereAsItSays) {
+  for (const int detail : {2, 3, 4, 8, 24, 96, kMaxSphereDetail}) {
+    const TriMesh mesh = make_sphere_mesh(detail);
+    EXPECT_EQ(mesh.triangles.size(), static_cast<size_t>(8 * detail * detail));
+    EXPECT_EQ(mesh.positions.size(), static_cast<size_t>(4 * detail * detail + 2));  // Euler: V = F/2 + 2
+    EXPECT_TRUE(mesh.closed);
+    double nearest = 1.0;
+    for (const auto& t : mesh.triangles) {
+      const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+      const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
+      EXPECT_GT(glm::dot(n, a), 0.0) << "outward";
+      nearest = std::min(nearest, glm::dot(n, a));
+    }
+    for (const Vec3& p : mesh.positions) EXPECT_NEAR(glm::length(p), 1.0, 1e-15);
+    EXPECT_LE(1.0 - nearest, sphere_mesh_error(detail)) << detail;
+    EXPECT_GE(1.0 - nearest, 0.75 * sphere_mesh_error(detail)) << detail << ": or the bound is a waste";
+  }
+}
+
+TEST(Tessellation, KeepsToTheChordErrorInPixels) {
+  // A sphere of radius 1 in the middle of an orthographic picture of 100 pixels a unit.
+  const auto parsed = parse_scene(R"({"image": {"width": 300, "height": 300},
+    "camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": 3},
+    "objects": [{"type": "sphere"}], "render": {"tessellate": true}})",
+                                  Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(1);
+  const auto scene = compile_scene(parsed->scene, pool);
+  int64_t last = 0;
+  for (const double chord : {4.0, 1.0, 0.25, 0.05}) {
+    View view = parsed->view;
+    view.render.chord_error_px = chord;
+    const auto drawn = drawn_scene(scene, plan_view(*scene, view), pool);
+    ASSERT_EQ(drawn->bodies[0].kind, BodyKind::mesh);
+    double error = 0.0;
+    for (const auto& t : drawn->bodies[0].mesh->triangles) {
+      const auto& p = drawn->bodies[0].mesh->positions;
+      error = std::max(error, 1.0 - glm::length((p[t[0]] + p[t[1]] + p[t[2]]) / 3.0));
+    }
+    EXPECT_LE(100.0 * error, chord);
+    EXPECT_GT(drawn->plan.triangles_instanced, last);
+    last = drawn->plan.triangles_instanced;
+  }
+}
+
+}  // namespace
+}  // namespace tilelight
