@@ -32,30 +32,37 @@ std::string table(const Comparison& c) {
   return out.html();
 }
 
+// A row of pictures for each method, a column for each shading. ending: of the pictures' files.
+template <class HasPicture>
+std::string grid(const Comparison& c, const std::string& ending, const HasPicture& has_picture) {
+  std::string out, method;
+  for (const CompareRow& row : c.rows) {
+    if (!has_picture(row)) continue;
+    if (row.method != method) out += (method.empty() ? "" : "</div>\n") + std::string("<div class=\"pictures\">\n");
+    method = row.method;
+    out += figure(file_stem(row) + ending, name_of(row));
+  }
+  return method.empty() ? out : out + "</div>\n";
+}
+
 std::string pictures(const Comparison& c) {
-  std::string out = "<div class=\"pictures\">\n" +
-                    figure("reference.png", "The whole light model by rays, " + std::to_string(c.reference_samples) +
-                                                " samples a pixel");
-  for (const CompareRow& row : c.rows) out += figure(file_stem(row) + ".png", name_of(row));
-  return out + "</div>\n";
+  const std::string caption =
+      "The whole light model by rays, " + std::to_string(c.reference_samples) + " samples a pixel";
+  return "<div class=\"pictures\">\n" + figure("reference.png", caption) + "</div>\n" +
+         grid(c, ".png", [](const CompareRow&) { return true; });
 }
 
 std::string differences(const Comparison& c) {
-  std::string out = "<div class=\"pictures\">\n";
-  for (const CompareRow& row : c.rows)
-    if (!row.off.empty()) out += figure(file_stem(row) + "-off.png", name_of(row));
-  return out + "</div>\n";
+  return grid(c, "-off.png", [](const CompareRow& row) { return !row.off.empty(); });
 }
 
 std::string unlike_rays(const Comparison& c) {
-  std::string out;
-  for (const CompareRow& row : c.rows)
-    if (row.to_rays) out += figure(file_stem(row) + "-rays.png", name_of(row));
-  if (out.empty()) return out;
+  const std::string shown = grid(c, "-rays.png", [](const CompareRow& row) { return row.to_rays.has_value(); });
+  if (shown.empty()) return shown;
   return "<h2>Beside rays that draw the same</h2>\n<p>Where a method shows something else than rays with its own "
          "light, its own shading, its own triangles and its own samples: only along edges, where the corners of "
-         "triangles were rounded to 1/256 pixel.</p>\n<div class=\"pictures\">\n" +
-         out + "</div>\n";
+         "triangles were rounded to 1/256 pixel.</p>\n" +
+         shown;
 }
 
 std::string works(const Comparison& c) {

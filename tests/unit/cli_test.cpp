@@ -190,6 +190,32 @@ TEST_F(Command, WritesTheReport) {
   EXPECT_NE(read("r.json").find("\"passes\":[1.0,1.0,2.0]"), std::string::npos) << read("r.json");
 }
 
+TEST_F(Command, DrawsByTheMethodAndShadingAskedFor) {
+  for (const char* method : {"raytrace", "zbuffer", "warnock"}) {
+    const Outcome outcome = run({"render", "scene.json", "-o", std::string(method) + ".png", "--algorithm", method,
+                                 "--shading", "flat", "--samples", "2"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  EXPECT_EQ(read("zbuffer.png"), read("warnock.png"));
+  EXPECT_NE(read("zbuffer.png"), read("raytrace.png")) << "rays alone see the mirror";
+  const Outcome unknown = run({"render", "scene.json", "-o", "x.png", "--algorithm", "painter"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("zbuffer"), std::string::npos) << unknown.err;
+}
+
+TEST_F(Command, LaysMethodsSideBySide) {
+  const Outcome outcome = run({"compare", "scene.json", "-o", "side/by/side", "--methods", "zbuffer,warnock",
+                               "--shadings", "gouraud", "--samples", "1", "--rounds", "1"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("compare.html"), std::string::npos);
+  const std::string page = read("side/by/side/compare.html");
+  for (const char* file : {"reference.png", "zbuffer-gouraud.png", "warnock-gouraud-rays.png", "warnock-work.png"}) {
+    EXPECT_NE(page.find(file), std::string::npos) << file;
+    EXPECT_FALSE(read(std::string("side/by/side/") + file).empty()) << file;
+  }
+  EXPECT_EQ(run({"compare", "scene.json", "-o", "x", "--methods", "painter"}).code, 2);
+}
+
 TEST_F(Command, ExplainsOnePixelInsteadOfRendering) {
   const Outcome outcome = run({"render", "scene.json", "--pixel", "35,25"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -251,7 +277,7 @@ TEST_F(Command, RefusesAStudyThatItCouldNotWrite) {
 TEST_F(Command, PrintsSchemaVersionAndHelp) {
   EXPECT_NE(run({"schema"}).out.find("https://json-schema.org/draft/2020-12/schema"), std::string::npos);
   EXPECT_EQ(run({"--version"}).out.substr(0, 10), "tilelight ");
-  for (const char* command : {"render", "plan", "report", "chess", "schema"}) {
+  for (const char* command : {"render", "plan", "report", "compare", "chess", "schema"}) {
     const Outcome help = run({command, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "renderer/study/compare.h"
 #include "renderer/study/statistics.h"
 #include "renderer/study/study.h"
 
@@ -80,7 +81,7 @@ TEST_F(SmallStudy, SeesTheErrorFallAsTheFieldKnowsIt) {
 }
 
 TEST_F(SmallStudy, FindsNoDifferenceBetweenOursAndTheTwinInDouble) {
-  const StudySeries &uniform = study().series.front(), &twin = study().series[2];
+  const StudySeries &uniform = study().series.front(), &twin = study().series.back();
   ASSERT_EQ(twin.name, "reference renderer");
   EXPECT_NEAR(twin.runs[1].rmse_by_round[0], uniform.runs[2].rmse_by_round[0], 1e-5);  // the same four samples
   EXPECT_LT(study().components.rounding, 1e-4);
@@ -123,6 +124,52 @@ TEST(AStudy, CanBeCancelled) {
   int asked = 0;
   options.is_cancelled = [&asked] { return ++asked > 3; };
   EXPECT_FALSE(make_study(*parse_scene(kScene, Limits{}), "small", pool, options));
+}
+
+TEST(Comparisons, FindWarnockAndZbufferEqualAndBothLikeRays) {
+  const auto parsed = parse_scene(kScene, Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(2);
+  CompareOptions options;
+  options.samples = 2, options.rounds = 1, options.reference_samples = 8;
+  options.methods = {Algorithm::raytrace, Algorithm::zbuffer, Algorithm::warnock};
+  const auto made = compare_methods(*parsed, "scene", pool, options);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->rows.size(), 9u);
+  for (int shading = 0; shading < 3; ++shading) {
+    const CompareRow &rays = made->rows[shading], &zbuffer = made->rows[3 + shading],
+                     &warnock = made->rows[6 + shading];
+    EXPECT_EQ(zbuffer.image->rgb, warnock.image->rgb);
+    EXPECT_EQ(zbuffer.shading, rays.shading);
+    ASSERT_TRUE(zbuffer.to_rays);
+    EXPECT_LE(zbuffer.to_rays->part, 0.03) << "a small picture, much of it edges";
+    EXPECT_FALSE(rays.to_rays);
+    EXPECT_EQ(zbuffer.rays.reflected, 0);
+    EXPECT_GT(rays.rays.reflected, 0);
+  }
+  EXPECT_LT(made->rows[2].error.rmse, made->rows[5].error.rmse) << "rays alone see mirrors";
+
+  ASSERT_EQ(made->works.size(), 2u);
+  const auto count = [&](size_t work, const std::string& name) {
+    for (const auto& c : made->works[work].work.counts)
+      if (c.name == name) return c.value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  const double pixels = 32.0 * 24.0;
+  EXPECT_GE(count(0, "coverings of samples"), 0.4 * pixels) << "the floor is half the picture";
+  // Every cut makes two to four windows of one; what is not divided is settled or decided.
+  const double windows = count(1, "windows looked at"), divided = count(1, "windows divided");
+  EXPECT_EQ(windows, divided + count(1, "windows empty") + count(1, "windows of one primitive") +
+                         count(1, "windows surrounded") + count(1, "pixels decided one by one"));
+  EXPECT_LE(windows - 1.0, 4.0 * divided);
+  EXPECT_LE(count(1, "deepest subdivision"), 5.0) << "log2 32";
+
+  const std::string page = comparison_html(*made), numbers = comparison_json(*made);
+  for (const char* file :
+       {"reference.png", "zbuffer-flat.png", "warnock-phong-off.png", "zbuffer-gouraud-rays.png", "warnock-work.png"})
+    EXPECT_NE(page.find(file), std::string::npos) << file;
+  EXPECT_NE(numbers.find("\"differing_part\""), std::string::npos);
 }
 
 }  // namespace
