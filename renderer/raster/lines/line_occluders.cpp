@@ -85,13 +85,18 @@ int64_t LineOccluders::hide(const Candidate& line, const Vec2& from, const Vec2&
     ++asked;
     if (!span.is_empty()) hidden.push_back(span);
   };
-  const auto lies_on_body = [&](uint32_t body) { return line.faces[0].body == body || line.faces[1].body == body; };
   for (const LinePlane& plane : bodies_.planes)
-    if (!lies_on_body(plane.body)) add(hidden_by(plane, line));
+    if (plane.body != line.other) add(hidden_by(plane, line));
+  // Of a convex body nothing lies before a face that the eye sees.
+  const auto lies_on_front_of = [&](uint32_t body) {
+    return std::any_of(line.faces.begin(), line.faces.end(), [&](const FaceId& id) {
+      return id.body == body && id.face != kNoFace && bodies_.finite[body].facing[id.face] > 0;
+    });
+  };
   grid_.visit(from, to, [&](uint32_t i) {
     const FaceId& item = items_[i];
     if (item.face == kNoFace) {
-      if (!lies_on_body(item.body)) add(hidden_by(shadows_[item.body], line));  // a convex body's own lines are seen
+      if (!lies_on_front_of(item.body)) add(hidden_by(shadows_[item.body], line));
     } else if (item != line.faces[0] && item != line.faces[1]) {
       add(hidden_by(item, line));
     }
