@@ -5,54 +5,21 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "renderer/compile/compiled_scene.h"
-#include "renderer/measure/reference.h"
-#include "renderer/raster/lines/line_drawing.h"
 #include "renderer/raster/lines/line_ink.h"
-#include "renderer/raster/lines/line_pieces.h"
-#include "renderer/scene/parse.h"
-#include "tests/unit/reference_scenes.h"
+#include "tests/unit/raster_lines_support.h"
 
 namespace tilelight {
 namespace {
 
-using reference_test::add_object, reference_test::dark_scene;
+using namespace lines_test;
 using Segment = std::pair<Vec3, Vec3>;
 
 constexpr double kRelative = 1e-6;
-
-TilePool& pool() {
-  static TilePool two_threads(2);
-  return two_threads;
-}
-
-View view_of(const Camera& camera, int width = 800, int height = 600) {
-  View view;
-  view.camera = camera;
-  view.image.width = width, view.image.height = height;
-  return view;
-}
-
-Camera perspective(const Vec3& position, const Vec3& target = Vec3(0.0)) {
-  return {.position = position, .target = target, .fov_y_deg = 40.0};
-}
-
-Camera orthographic(const Vec3& position, double height) {
-  return {.projection = Projection::orthographic, .position = position, .height = height};
-}
-
-LineDrawing draw(const Scene& scene, const View& view, bool with_hidden = false) {
-  const auto compiled = compile_scene(scene, pool());
-  return draw_lines(*compiled, plan_view(*compiled, view, ""), pool(), with_hidden);
-}
 
 // The pinhole camera as a textbook has it.
 Vec2 projected(const View& view, const Vec3& p) {
@@ -126,12 +93,6 @@ std::vector<Segment> edges_at(const Vec3& lo, const Vec3& hi, int corner_bits, b
     }
   }
   return edges;
-}
-
-Scene boxes(const std::vector<BoxShape>& shapes) {
-  Scene scene = dark_scene();
-  for (const BoxShape& shape : shapes) add_object(scene, shape);
-  return scene;
 }
 
 TEST(LineDrawing, OfACubeShowsTheNineEdgesThatDoNotMeetAtItsFarthestCorner) {
@@ -319,193 +280,6 @@ TEST(LineDrawing, OfAConvexMeshShowsTheEdgesOfItsFlatFacesHoweverTheyAreCut) {
   }
 }
 
-Scene parsed(const std::string& json, View* view = nullptr) {
-  const auto result = parse_scene(json, Limits{});
-  EXPECT_TRUE(result) << (result ? "" : result.error().errors[0].detail);
-  if (view) *view = result->view;
-  return result->scene;
-}
-
-std::string file_text(const std::string& path) {
-  std::ifstream in(std::string(TILELIGHT_SOURCE_DIR) + "/" + path);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-struct Disagreement {
-  int points = 0, visible_but_blocked = 0, hidden_but_free = 0;
-};
-
-// Sixteen points of every piece that is kept, each seen by a ray of the reference from the eye: is anything before it?
-Disagreement ask_reference(const Scene& scene, const View& view, size_t stride) {
-  const auto compiled = compile_scene(scene, pool());
-  const ViewPlan plan = plan_view(*compiled, view, "");
-  const lines::LineView line_view(plan);
-  const lines::LinePieces found = lines::find_line_pieces(*compiled, line_view, pool(), true);
-  const ReferenceScene judge(scene);
-  const Vec3 forward = glm::normalize(plan.camera.target - plan.camera.position);
-  const auto to_user = [&](const Vec3& p) { return compiled->center + compiled->units * line_view.to_world(p); };
-  Disagreement out;
-  for (size_t i = 0; i < found.pieces.size(); i += stride) {
-    const lines::LinePiece& piece = found.pieces[i];
-    for (int k = 0; k < 16; ++k) {
-      const Vec3 p = to_user(glm::mix(piece.from, piece.to, (k + 0.5) / 16.0));
-      reference::Ray ray;
-      double distance = glm::length(p - plan.camera.position);
-      if (plan.camera.projection == Projection::perspective) {
-        ray.origin = plan.camera.position, ray.direction = (p - ray.origin) / distance;
-      } else {
-        distance = glm::dot(p - plan.camera.position, forward);
-        ray.origin = p - distance * forward, ray.direction = forward;
-      }
-      const auto hit = judge.nearest(ray);
-      const bool is_blocked = hit && hit->t < distance - 1e-6 * compiled->units;
-      ++out.points;
-      out.visible_but_blocked += !piece.is_hidden && is_blocked;
-      out.hidden_but_free += piece.is_hidden && !is_blocked;
-    }
-  }
-  return out;
-}
-
-void expect_agreement(const Scene& scene, const View& view, size_t stride, int least_points) {
-  const Disagreement d = ask_reference(scene, view, stride);
-  EXPECT_GE(d.points, least_points);
-  EXPECT_EQ(d.visible_but_blocked, 0) << "of " << d.points;
-  EXPECT_EQ(d.hidden_but_free, 0) << "of " << d.points;
-}
-
-TEST(LineDrawing, HidesWhatRaysOfTheReferenceDoNotReach) {
-  for (const std::string piece : {"pawn", "rook", "knight", "bishop", "queen", "king"}) {
-    SCOPED_TRACE(piece);
-    View view;
-    const Scene scene = parsed(R"({"image": {"width": 640, "height": 480},
-      "camera": {"position": [2.1, 2.3, 2.9], "target": [0, 0.7, 0]}, "objects": [
-      {"type": "chess_piece", "piece": ")" +
-                                   piece + R"(", "detail": 64},
-      {"type": "box", "min": [-0.1, 0.1, -0.2], "max": [0.9, 0.52, 0.33], "rotate_deg": {"axis": [1, 2, 3], "angle": 20}},
-      {"type": "plane", "point": [0, 0.05, 0], "normal": [0.05, 1, 0.02]}]})",
-                               &view);
-    expect_agreement(scene, view, 1, 10000);
-    view.camera->projection = Projection::orthographic;
-    view.camera->height = 2.6;
-    expect_agreement(scene, view, 1, 10000);
-  }
-}
-
-TEST(LineDrawing, HidesInAnOpeningPositionWhatRaysOfTheReferenceDoNotReach) {
-  View view;
-  const Scene scene = parsed(file_text("web/scenes/opening.json"), &view);
-  expect_agreement(scene, view, 17, 30000);
-}
-
-// Boxes with corners on a lattice: faces in one plane, edges on edges, boxes in boxes, most of them touching.
-Scene lattice_boxes(uint32_t seed) {
-  std::mt19937 random(seed);
-  std::vector<BoxShape> shapes;
-  for (int i = 0; i < 10; ++i) {
-    const auto from_to = [&](uint32_t lo, uint32_t hi) { return lo + random() % (hi - lo + 1); };
-    const Vec3 lo(from_to(0, 4), from_to(0, 4), from_to(0, 4));
-    shapes.push_back({lo, lo + Vec3(from_to(1, 3), from_to(1, 3), from_to(1, 3))});
-  }
-  Scene scene = boxes(shapes);
-  if (seed % 3 == 1) add_object(scene, PlaneShape{.point = Vec3(0, seed % 5, 0)});
-  return scene;
-}
-
-std::vector<View> lattice_views() {
-  Camera front = orthographic({3, 3, 20}, 9.0), aslant = orthographic({12, 14, 16}, 12.0);
-  front.target = Vec3(3, 3, 0), aslant.target = Vec3(3);
-  return {view_of(front, 97, 89), view_of(aslant, 97, 89), view_of(perspective({9.13, 11.29, 13.07}, Vec3(3)), 97, 89)};
-}
-
-TEST(LineDrawing, HidesAmongBoxesThatTouchWhatRaysOfTheReferenceDoNotReach) {
-  for (uint32_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
-    for (const View& view : lattice_views()) {
-      const Disagreement d = ask_reference(lattice_boxes(seed), view, 1);
-      EXPECT_GE(d.points, 100);
-      EXPECT_EQ(d.visible_but_blocked, 0) << "of " << d.points;
-      // Seen face on, what lies exactly behind an outline is hidden; a ray grazes it or not, as rounding wants.
-      if (view.camera->position != lattice_views()[0].camera->position)
-        EXPECT_EQ(d.hidden_but_free, 0) << "of " << d.points;
-    }
-  }
-}
-
-// By how much two lines lie on each other, pixels.
-double overlap_px(const DrawnLine& a, const DrawnLine& b) {
-  const double length = glm::length(a.to - a.from);
-  const Vec2 way = (a.to - a.from) / length;
-  const auto off = [&](const Vec2& p) {
-    return Vec2(glm::dot(p - a.from, way), (p.x - a.from.x) * way.y - (p.y - a.from.y) * way.x);
-  };
-  const Vec2 from = off(b.from), to = off(b.to);
-  if (std::max(std::fabs(from.y), std::fabs(to.y)) > 1e-6) return 0.0;
-  return std::min(length, std::max(from.x, to.x)) - std::max(0.0, std::min(from.x, to.x));
-}
-
-TEST(LineDrawing, NeverDrawsALineOverAnother) {
-  for (uint32_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
-    for (const View& view : lattice_views()) {
-      const LineDrawing drawing = draw(lattice_boxes(seed), view);
-      int doubled = 0;
-      for (size_t i = 0; i < drawing.lines.size(); ++i)
-        for (size_t j = 0; j < i; ++j) doubled += overlap_px(drawing.lines[i], drawing.lines[j]) > 1e-6;
-      EXPECT_EQ(doubled, 0);
-    }
-  }
-}
-
-// Between the middles of two pixels that show different surfaces there is a line.
-void expect_lines_between_surfaces(const Scene& scene, const View& view, bool by_face) {
-  const LineDrawing drawing = draw(scene, view);
-  const LineInk ink(drawing);
-  const ReferenceScene judge(scene);
-  const ReferenceEye eye = make_reference_eye(judge, view, *view.camera);
-  const int width = drawing.width, height = drawing.height;
-  std::vector<uint64_t> ids;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const uint64_t id = reference_sample(judge, eye, {x + 0.5, y + 0.5}).primary_id;
-      ids.push_back(by_face || id == kNothingHit ? id : id >> 32);
-    }
-  }
-  const auto is_line_between = [&](const Vec2& a, const Vec2& b) {
-    for (int k = 0; k <= 16; ++k) {
-      const Vec2 p = glm::mix(a, b, k / 16.0);
-      if (ink.is_inked(p.x, p.y)) return true;
-    }
-    return false;
-  };
-  int borders = 0, without_line = 0;
-  for (int y = 0; y + 1 < height; ++y) {
-    for (int x = 0; x + 1 < width; ++x) {
-      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)}) {
-        if (ids[y * width + x] == ids[(y + dy) * width + x + dx]) continue;
-        ++borders;
-        without_line += !is_line_between({x + 0.5, y + 0.5}, {x + dx + 0.5, y + dy + 0.5});
-      }
-    }
-  }
-  EXPECT_GT(borders, 50);
-  EXPECT_EQ(without_line, 0) << "of " << borders;
-}
-
-TEST(LineDrawing, HasALineBetweenAnyTwoFacesThatTheReferenceSeesSideBySide) {
-  for (uint32_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
-    for (const View& view : lattice_views()) expect_lines_between_surfaces(lattice_boxes(seed), view, true);
-  }
-}
-
-TEST(LineDrawing, HasALineBetweenAnyTwoBodiesThatTheReferenceSeesSideBySide) {
-  View view;
-  const Scene scene = parsed(file_text("web/scenes/opening.json"), &view);
-  view.image.width = 256, view.image.height = 144;
-  expect_lines_between_surfaces(scene, view, false);
-}
-
 TEST(LineDrawing, IsTheSameOnAnyNumberOfThreads) {
   View view;
   const Scene scene = parsed(file_text("web/scenes/opening.json"), &view);
@@ -521,21 +295,6 @@ TEST(LineDrawing, IsTheSameOnAnyNumberOfThreads) {
     ASSERT_EQ(a.lines[i].from, b.lines[i].from);
     ASSERT_EQ(a.lines[i].to, b.lines[i].to);
   }
-}
-
-TEST(LineDrawing, StaysInTheImageWhateverTheEyeIsNear) {
-  // The eye stands between the men, over the board; much lies beside and behind it.
-  View view;
-  const Scene scene = parsed(file_text("web/scenes/opening.json"), &view);
-  view.camera->position = {0.2, 0.6, 1.3}, view.camera->target = {1.0, 0.5, 0.0}, view.camera->fov_y_deg = 100.0;
-  const LineDrawing drawing = draw(scene, view, true);
-  EXPECT_GT(drawing.lines.size(), 1000u);
-  for (const DrawnLine& line : drawing.lines) {
-    for (const Vec2& end : {line.from, line.to}) {
-      ASSERT_TRUE(end.x >= 0.0 && end.x <= drawing.width && end.y >= 0.0 && end.y <= drawing.height);
-    }
-  }
-  expect_agreement(scene, view, 13, 10000);
 }
 
 TEST(LineDrawing, AsSvgDashesWhatIsHidden) {

@@ -118,6 +118,8 @@ std::vector<Candidate> all_candidates(const LineBodies& bodies, const LineView& 
   const std::vector<Candidate> junctions = junction_candidates(bodies, view, pool, with_hidden);
   work.junction_segments = static_cast<int64_t>(junctions.size());
   out.insert(out.end(), junctions.begin(), junctions.end());
+  // Of lines that coincide the first is drawn: the two sides of a flat box have their edges in one place.
+  std::stable_partition(out.begin(), out.end(), [](const Candidate& line) { return !line.is_behind_own_body; });
   return out;
 }
 
