@@ -81,12 +81,14 @@ LineOccluders::LineOccluders(const LineBodies& bodies, const LineView& view)
 
 int64_t LineOccluders::hide(const Candidate& line, const Vec2& from, const Vec2& to, std::vector<Span>& hidden) const {
   int64_t asked = 0;
+  // Whether nothing is left to hide.
   const auto add = [&](const Span& span) {
     ++asked;
     if (!span.is_empty()) hidden.push_back(span);
+    return span.from <= line.in_image.from && span.to >= line.in_image.to;
   };
   for (const LinePlane& plane : bodies_.planes)
-    if (plane.body != line.other) add(hidden_by(plane, line));
+    if (plane.body != line.other && add(hidden_by(plane, line))) return asked;
   // Of a convex body nothing lies before a face that the eye sees.
   const auto lies_on_front_of = [&](uint32_t body) {
     return std::any_of(line.faces.begin(), line.faces.end(), [&](const FaceId& id) {
@@ -95,11 +97,8 @@ int64_t LineOccluders::hide(const Candidate& line, const Vec2& from, const Vec2&
   };
   grid_.visit(from, to, [&](uint32_t i) {
     const FaceId& item = items_[i];
-    if (item.face == kNoFace) {
-      if (!lies_on_front_of(item.body)) add(hidden_by(shadows_[item.body], line));
-    } else if (item != line.faces[0] && item != line.faces[1]) {
-      add(hidden_by(item, line));
-    }
+    if (item.face == kNoFace) return !lies_on_front_of(item.body) && add(hidden_by(shadows_[item.body], line));
+    return item != line.faces[0] && item != line.faces[1] && add(hidden_by(item, line));
   });
   return asked;
 }

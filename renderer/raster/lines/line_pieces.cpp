@@ -33,6 +33,7 @@ class Coincidences {
     const Candidate& line = lines_[index];
     grid_.visit(from, to, [&](uint32_t earlier) {
       if (earlier < index) add_overlap(line, lines_[earlier], spans);
+      return false;
     });
     unite(spans, 0.0);
     return spans;

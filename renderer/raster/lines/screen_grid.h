@@ -30,8 +30,9 @@ class ScreenGrid {
   // Boxes are widened a little for rounding and cut at the image's border. Empty ones are never met.
   ScreenGrid(int width, int height, std::vector<ScreenBox> boxes);
 
-  // Calls visit(index) once for every box that meets the segment's own box and whose tiles the segment passes, in an
-  // order that depends on the boxes alone. REQUIRES: the segment lies in the image.
+  // Calls visit(index) once for every box that meets the segment's own box and whose tiles the segment passes, large
+  // boxes first, in an order that depends on boxes and segment alone. Stops where visit returns true. REQUIRES: the
+  // segment lies in the image.
   template <class Visit>
   void visit(const Vec2& from, const Vec2& to, Visit visit) const;
 
@@ -60,7 +61,8 @@ class ScreenGrid {
 template <class Visit>
 void ScreenGrid::visit(const Vec2& from, const Vec2& to, Visit visit) const {
   const ScreenBox own{glm::min(from, to), glm::max(from, to)};
-  for (const Level& level : levels_) {
+  for (auto at = levels_.rbegin(); at != levels_.rend(); ++at) {
+    const Level& level = *at;
     if (level.items.empty()) continue;
     const Range rows = level.tiles(own.lo.y, own.hi.y, level.rows);
     Range above{0, -1};  // the tiles passed in the row above
@@ -76,7 +78,7 @@ void ScreenGrid::visit(const Vec2& from, const Vec2& to, Visit visit) const {
           if (column != std::max(columns.first, passed.first)) continue;
           const bool was_above = level.tiles(box.lo.y, box.hi.y, level.rows).first < row &&
                                  above.first <= columns.last && columns.first <= above.last;
-          if (!was_above) visit(level.items[i]);
+          if (!was_above && visit(level.items[i])) return;
         }
       }
       above = passed;
