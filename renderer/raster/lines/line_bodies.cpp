@@ -13,7 +13,7 @@ namespace tilelight::lines {
 namespace {
 
 // A convex body of more faces hides as its faces: of these a line meets a few, of the body it would be asked for all.
-constexpr size_t kMostFacesOfWhole = 2000;
+constexpr size_t kMostFacesOfWhole = 6000;  // at 5,000 both take the same time, at 20,000 faces take half
 
 void place_points(LineBody& out, const CompiledBody& body, const LineView& view) {
   const auto place = [&](const Vec3& local) {
