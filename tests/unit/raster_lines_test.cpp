@@ -19,7 +19,7 @@ namespace {
 using namespace lines_test;
 using Segment = std::pair<Vec3, Vec3>;
 
-constexpr double kRelative = 1e-6;
+constexpr double kRelative = 1e-11;  // only rounding
 
 // The pinhole camera as a textbook has it.
 Vec2 projected(const View& view, const Vec3& p) {
@@ -235,6 +235,23 @@ TEST(LineDrawing, OfABodyAroundTheEyeShowsItFromTheInside) {
   const double top = projected(view, far_square[0].first).y;  // of the lower corners, in pixels
   const double to_border = std::sqrt(2.0) * (600.0 - top);
   expect_length(inside, length_of(view, far_square) + 4.0 * to_border);
+}
+
+TEST(LineDrawing, OfPlanesAloneIsEmptyAndOfAnyImageShapeStaysInIt) {
+  Scene planes = dark_scene();
+  add_object(planes, PlaneShape{});
+  add_object(planes, PlaneShape{.point = Vec3(0), .normal = Vec3(1, 0, 0)});
+  EXPECT_TRUE(draw(planes, view_of(perspective({3, 4, 5})), true).lines.empty());
+  const Scene cube = boxes({{Vec3(-1), Vec3(1)}});
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(30000, 1), std::pair(1, 30000)}) {
+    const LineDrawing drawing = draw(cube, view_of(perspective({3, 4, 5}), width, height), true);
+    EXPECT_FALSE(drawing.lines.empty());
+    for (const DrawnLine& line : drawing.lines) {
+      EXPECT_TRUE(line.from.x >= 0.0 && line.from.x <= width && line.from.y >= 0.0 && line.from.y <= height);
+      EXPECT_TRUE(line.to.x >= 0.0 && line.to.x <= width && line.to.y >= 0.0 && line.to.y <= height);
+    }
+    EXPECT_FALSE(LineInk(drawing).is_inked(0.01, 0.01) && width > 1);
+  }
 }
 
 MeshData octahedron(bool is_cut) {
