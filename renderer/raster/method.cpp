@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/raster/method.h"
 
+#include "renderer/raster/line_draw.h"
 #include "renderer/raster/raster_work.h"
 #include "renderer/raster/warnock.h"
 #include "renderer/raster/window_draw.h"
@@ -52,6 +53,21 @@ class Warnock final : public Method, public WindowFinder {
   const WarnockScene subdivision_;
 };
 
+class Roberts final : public Method {
+ public:
+  Roberts(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
+      : spec_(plan.view.render), drawing_(draw_lines(scene, plan, pool, spec_.hidden_lines)), ink_(drawing_) {}
+  void draw(const TileJob& job) const override { draw_ink(ink_, spec_, job); }
+  MethodWork work() const override { return roberts_work(drawing_); }
+  int64_t memory_bytes() const override { return static_cast<int64_t>(drawing_.lines.size() * sizeof(DrawnLine)); }
+  std::string lines_svg() const override { return line_drawing_svg(drawing_); }
+
+ private:
+  const RenderSpec spec_;
+  const LineDrawing drawing_;
+  const LineInk ink_;
+};
+
 }  // namespace
 
 std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) {
@@ -60,8 +76,9 @@ std::unique_ptr<const Method> make_method(const CompiledScene& scene, const View
       return std::make_unique<Zbuffer>(scene, plan, pool);
     case Algorithm::warnock:
       return std::make_unique<Warnock>(scene, plan, pool);
-    case Algorithm::raytrace:
     case Algorithm::roberts:
+      return std::make_unique<Roberts>(scene, plan, pool);
+    case Algorithm::raytrace:
       break;
   }
   return std::make_unique<Raytrace>(plan.variant);

@@ -32,6 +32,8 @@ class Method {
   // Found anew by every call, at the price of about one sample of every pixel.
   virtual MethodWork work() const { return {}; }
   virtual int64_t memory_bytes() const { return 0; }
+  // The picture's lines as an SVG document; empty where it has none.
+  virtual std::string lines_svg() const { return {}; }
 };
 
 // Runs on the calling thread and on idle threads of the pool. REQUIRES: a scene without spheres, if the view is drawn

@@ -59,6 +59,19 @@ MethodWork zbuffer_work(const RasterScene& raster) {
   return out;
 }
 
+MethodWork roberts_work(const LineDrawing& drawing) {
+  MethodWork out;
+  const LineWork& work = drawing.work;
+  const auto add = [&](const char* name, int64_t value) { out.counts.push_back({name, static_cast<double>(value)}); };
+  add("bodies that hide as one convex body", work.convex_bodies);
+  add("faces", work.faces);
+  add("edges looked at", work.edges);
+  add("junctions found between faces", work.junction_segments);
+  add("occlusion tests of a line", work.occlusion_tests);
+  add("lines drawn", work.drawn_lines);
+  return out;
+}
+
 MethodWork warnock_work(const RasterScene& raster, const WarnockScene& subdivision) {
   MethodWork out;
   add_set_up(raster, out);

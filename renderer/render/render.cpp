@@ -139,6 +139,14 @@ class TileRender final : public Render, public WorkSource {
     return exposed_->error_bounds;
   }
 
+  std::string lines_svg() const override {
+    {
+      const std::lock_guard lock(mutex_);
+      if (standing_.passes == 0) return {};
+    }
+    return method_->lines_svg();  // written once, before the first pass
+  }
+
   std::shared_ptr<const ExposedFilm> exposed_film() const override {
     const std::lock_guard lock(mutex_);
     return state_ == RenderState::done && !over_time_ ? exposed_ : nullptr;

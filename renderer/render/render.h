@@ -102,6 +102,8 @@ class Render {
   virtual std::shared_ptr<const Image> image() const = 0;
   // By pixel of that image, what its error is below of in 95 % of cases, displayed. Null before the first pass.
   virtual std::shared_ptr<const std::vector<float>> error_bounds() const = 0;
+  // The lines of a picture by roberts as an SVG document, from the first pass on. Empty before, and by other methods.
+  virtual std::string lines_svg() const = 0;
   // Once it is done. Null before, and where samples of a pass that was dropped are among those that count.
   virtual std::shared_ptr<const ExposedFilm> exposed_film() const = 0;
   // Blocks until the render ends or the time is over. True if it ended.

@@ -158,6 +158,7 @@ class Maker {
     const ViewPlan plan = plan_view(*compiled_, view);
     const auto drawn = drawn_scene(compiled_, plan, pool_);
     const auto method = make_method(*drawn, plan, pool_);
+    if (const std::string svg = method->lines_svg(); !svg.empty()) out_.lines_svg = svg;
     CompareWork work{std::string(get_word(kAlgorithms, algorithm)), method->work()};
     for (CompareRow& row : out_.rows)
       if (row.method == work.method) row.memory_bytes = method->memory_bytes();
