@@ -57,8 +57,8 @@ class TileRender final : public Render, public WorkSource {
     report_.passes = before_.passes;
     report_.threads = pool.thread_count();
     report_.seed = plan_.view.render.seed;
-    // Kernels of local light alone do not look at what surfaces would pass on.
-    if (plan_.view.render.max_depth == 0) tally_.untraced_weight = scene_->passed_on;
+    // Kernels of local light alone do not look at what surfaces would pass on. Lines know no light.
+    if (plan_.view.render.max_depth == 0 && plan_.view.render.algorithm != Algorithm::roberts) tally_.untraced_weight = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
     const std::lock_guard lock(mutex_);
     open_step(Stage::prepare, 0);
