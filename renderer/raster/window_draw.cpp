@@ -22,14 +22,19 @@ class WindowHits final : public FirstHits {
 
   uint32_t& first_sample(int x, int y) { return first_[cell(x, y)]; }
 
+  SamplePoint place(int x, int y, uint32_t sample) const override {
+    const VisibleWindow& layer = layer_of(x, y, sample);
+    const size_t at = VisibleWindow::at(x - x0_, y - y0_);
+    return {layer.x[at] / kSubpixels - x, layer.y[at] / kSubpixels - y};
+  }
   Hit at(int x, int y, uint32_t sample, const Ray& ray) const override {
-    const VisibleWindow& layer = layers_[sample - first_[cell(x, y)]];
-    const uint32_t owner = layer.owner[VisibleWindow::at(x - x0_, y - y0_)];
+    const uint32_t owner = layer_of(x, y, sample).owner[VisibleWindow::at(x - x0_, y - y0_)];
     if (owner == kNone) return {};
     return hit_of(scene_, prims_[owner]->body, prims_[owner]->prim, ray);
   }
 
  private:
+  const VisibleWindow& layer_of(int x, int y, uint32_t sample) const { return layers_[sample - first_[cell(x, y)]]; }
   size_t cell(int x, int y) const {
     return static_cast<size_t>((y - y0_) / kCellPx * kCellsAcross + (x - x0_) / kCellPx);
   }

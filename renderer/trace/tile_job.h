@@ -10,6 +10,7 @@
 #include "renderer/compile/compile.h"
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/film/film.h"
+#include "renderer/film/sampling.h"
 #include "renderer/shade/light_equation.h"
 #include "renderer/trace/eye_media.h"
 
@@ -52,6 +53,8 @@ struct CellWork {
 class FirstHits {
  public:
   virtual ~FirstHits() = default;
+  // Where the sample lies, as place_sample has it, and what its ray meets.
+  virtual SamplePoint place(int x, int y, uint32_t sample) const = 0;
   virtual Hit at(int x, int y, uint32_t sample, const Ray& ray) const = 0;
 };
 

@@ -196,7 +196,7 @@ class TileKernel {
     const Eye& eye = plan_.eye;
     uint32_t sample = 0;
     for_each_sample([&](int x, int y, uint32_t index) {
-      const SamplePoint p = place_sample(spec_, x, y, index);
+      const SamplePoint p = job_.first_hits ? job_.first_hits->place(x, y, index) : place_sample(spec_, x, y, index);
       const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
       primary.push(ray.origin, ray.direction, {}, Coincident::none,
                    {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
@@ -237,6 +237,12 @@ class TileKernel {
       radiance_[path.sample] += path.weight * sky;
       if constexpr (kCan.listens) listen(ray, path, hit, nullptr, sky);
       return;
+    }
+    if constexpr (!kCan.mirrors && !kCan.shadows && !kCan.listens) {
+      if (spec_.shading != Shading::phong && face_light_.is_plain(hit)) {
+        radiance_[path.sample] += path.weight * face_light_.plain_color(ray, hit, viewer_of(ray, path));
+        return;
+      }
     }
     Surface surface = make_surface(scene_, ray, hit);
     if (spec_.shading == Shading::flat) surface.normal = surface.geometric_normal, surface.is_rounded = false;
