@@ -12,12 +12,12 @@ std::vector<Row> catalogue() {
   std::vector<Row> rows;
   for (const auto group :
        {sphere_rows, box_rows, triangle_rows, invariance_rows, camera_rows, light_rows, neighbour_rows, terminator_rows,
-        bounce_rows, input_rows, line_rows, accuracy_rows, determinism_rows}) {
+        bounce_rows, raster_rows, input_rows, accuracy_rows, determinism_rows}) {
     const std::span<const Row> some = group();
     rows.insert(rows.end(), some.begin(), some.end());
   }
   const auto place = [](const Row& row) {
-    return std::pair(std::string_view("SBTICLHMNRJAD").find(row.id[0]), std::atoi(row.id + 1));
+    return std::pair(std::string_view("SBTICLHMRNJAD").find(row.id[0]), std::atoi(row.id + 1));
   };
   std::sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) { return place(a) < place(b); });
   return rows;

@@ -56,26 +56,43 @@ struct Look {
   bool is_covered = false;  // by the only one
 };
 
+// Whether `back` is behind `front`, which surrounds the window, wherever both are met: their nearness differs by an
+// affine function, so its corners tell. Surfaces that recede side by side are told apart long before their ranges are.
+bool is_behind(const RasterPrim& back, const RasterPrim& front, const Places& places) {
+  if (back.is_plane || front.is_plane) return false;      // a range of nearness may end within the window
+  const double apart = 2.0 * (back.slack + front.slack);  // and more than rounding at any place
+  for (const double x : {places.x0, places.x1}) {
+    for (const double y : {places.y0, places.y1}) {
+      const auto plain = [&](const Affine& f) { return f.at[0] + f.at[1] * x + f.at[2] * y; };
+      if (!(plain(back.nearness) + apart < std::min(plain(front.nearness), front.nearness_max))) return false;
+    }
+  }
+  // Neither may have been brought back into its own range to the other's side.
+  return back.nearness_min + apart < nearness_over(front, places).least;
+}
+
 // What of the primitives may be seen in a window: none that does not meet it, none behind one that surrounds it.
 Look look_into(const TileRect& window, const PrimList& prims, int reach_px) {
   const Places places(window, reach_px);
   Look out;
   double front = -std::numeric_limits<double>::infinity();  // the sample rule's is no less, for any sample
-  bool any_surrounds = false;
+  const RasterPrim* nearest = nullptr;                      // of those that surround
   std::vector<bool> surrounds;
   for (const RasterPrim* prim : prims) {
     const Lie lie = lie_of(*prim, window, reach_px);
     if (lie == Lie::disjoint) continue;
-    const bool is_around = lie == Lie::surrounding;
     out.seen.push_back(prim);
-    surrounds.push_back(is_around);
-    any_surrounds |= is_around;
-    if (is_around) front = std::max(front, nearness_over(*prim, places).least - prim->slack);
+    surrounds.push_back(lie == Lie::surrounding);
+    if (lie != Lie::surrounding) continue;
+    const double least = nearness_over(*prim, places).least - prim->slack;
+    if (least > front) front = least, nearest = prim;
   }
-  if (!any_surrounds) return out;
+  if (!nearest) return out;
   size_t kept = 0;
   for (size_t i = 0; i < out.seen.size(); ++i) {
-    if (nearness_over(*out.seen[i], places).most + out.seen[i]->slack < front) continue;
+    const RasterPrim& prim = *out.seen[i];
+    if (nearness_over(prim, places).most + prim.slack < front) continue;
+    if (&prim != nearest && is_behind(prim, *nearest, places)) continue;
     out.seen[kept] = out.seen[i];
     surrounds[kept++] = surrounds[i];
   }

@@ -33,6 +33,29 @@ MeshData icosphere(int levels) {
   return mesh;
 }
 
+MeshData sheet(double half, int steps, bool other_diagonal) {
+  MeshData mesh;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j)
+      mesh.positions.push_back(half * ((2.0 * i / steps - 1.0) * kAcross + (2.0 * j / steps - 1.0) * kAlong));
+  const auto row = static_cast<uint32_t>(steps + 1);
+  for (uint32_t i = 0; i + 1 < row; ++i) {
+    for (uint32_t j = 0; j + 1 < row; ++j) {
+      const uint32_t a = i * row + j, b = a + row, c = b + 1, d = a + 1;
+      if (other_diagonal)
+        mesh.indices.insert(mesh.indices.end(), {a, b, d, b, c, d});
+      else
+        mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+    }
+  }
+  return mesh;
+}
+
+std::string turn_text() {
+  const glm::dquat q = glm::quat_cast(Mat3(kAlong, kNormal, glm::cross(kAlong, kNormal)));
+  return R"("rotate_quat":[)" + text(q.x) + "," + text(q.y) + "," + text(q.z) + "," + text(q.w) + "]";
+}
+
 MeshData placed(MeshData mesh, double size, const Vec3& offset) {
   for (Vec3& p : mesh.positions) p = size * (p + offset);
   return mesh;

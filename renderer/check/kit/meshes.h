@@ -19,6 +19,11 @@ inline const Vec3 kAcross(2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0), kAlong(6.0 / 7.0, 2.
 // An icosahedron subdivided `levels` times onto the unit sphere: closed, 20 * 4^levels triangles.
 MeshData icosphere(int levels);
 
+// A square of that plane with sides of 2 * half, cut into steps * steps cells of two triangles.
+MeshData sheet(double half, int steps, bool other_diagonal = false);
+// Of an object: the turn that takes the axes x, y, z to kAlong, kNormal and their cross product.
+std::string turn_text();
+
 // Every position p becomes size * (p + offset).
 MeshData placed(MeshData mesh, double size, const Vec3& offset);
 

@@ -10,34 +10,10 @@
 #include "renderer/check/kit/meshes.h"
 #include "renderer/check/kit/pictures.h"
 #include "renderer/check/kit/textbook.h"
+#include "renderer/check/rows/neighbours.h"
 
 namespace tilelight::check {
 namespace {
-
-// The turn that takes the axes x, y, z to kAlong, kNormal and their cross product.
-std::string turn_text() {
-  const glm::dquat q = glm::quat_cast(Mat3(kAlong, kNormal, glm::cross(kAlong, kNormal)));
-  return R"("rotate_quat":[)" + text(q.x) + "," + text(q.y) + "," + text(q.z) + "," + text(q.w) + "]";
-}
-
-// A square of the plane with sides of 2 * half, cut into steps * steps cells of two triangles.
-MeshData sheet(double half, int steps, bool other_diagonal = false) {
-  MeshData mesh;
-  for (int i = 0; i <= steps; ++i)
-    for (int j = 0; j <= steps; ++j)
-      mesh.positions.push_back(half * ((2.0 * i / steps - 1.0) * kAcross + (2.0 * j / steps - 1.0) * kAlong));
-  const auto row = static_cast<uint32_t>(steps + 1);
-  for (uint32_t i = 0; i + 1 < row; ++i) {
-    for (uint32_t j = 0; j + 1 < row; ++j) {
-      const uint32_t a = i * row + j, b = a + row, c = b + 1, d = a + 1;
-      if (other_diagonal)
-        mesh.indices.insert(mesh.indices.end(), {a, b, d, b, c, d});
-      else
-        mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
-    }
-  }
-  return mesh;
-}
 
 // The plane as one of three kinds of body, lit at an elevation.
 constexpr const char* kGroundKinds[] = {"plane", "box", "mesh of 3200 triangles"};
@@ -150,53 +126,6 @@ Outcome contact(const Context& context) {
   return out;
 }
 
-// Two squares of one plane: meshes cut along different diagonals, one shifted, a flat box, a face of a slab. Body 0 is
-// red, body 1 green.
-std::string two_quads(const std::string& first, const std::string& second, int side) {
-  const std::string red = R"(,"material":{"diffuse":[1,0,0]}})", green = R"(,"material":{"diffuse":[0,1,0]}})";
-  return R"({"meshes":{"a":)" + mesh_text(sheet(1.0, 1)) + R"(,"b":)" + mesh_text(sheet(1.0, 3, true)) +
-         R"(},"objects":[)" + first + red + (second.empty() ? "" : "," + second + green) +
-         R"(],"camera":{"position":)" + text(2.0 * kNormal + 1.5 * kAcross + 0.3 * kAlong) + R"(,"target":[0,0,0]},)" +
-         image_text(side, side) + "}";
-}
-
-Outcome coplanar(const Context& context) {
-  const std::string a = R"({"type":"mesh","mesh":"a")", b = R"({"type":"mesh","mesh":"b")",
-                    shifted = b + R"(,"translate":)" + text(0.3 * kAcross - 0.2 * kAlong),
-                    flat = R"({"type":"box","min":[-1.2,0,-1.2],"max":[1.2,0,1.2],)" + turn_text(),
-                    slab = R"({"type":"box","min":[-1.2,-0.1,-1.2],"max":[1.2,0.1,1.2],)" + turn_text() +
-                           R"(,"translate":)" + text(-0.1 * kNormal);
-  struct Pair {
-    const char* what;
-    const std::string &first, &second;
-  };
-  Outcome out;
-  const int side = side_of(context);
-  for (const Pair& pair : {Pair{"mesh, mesh", a, b}, Pair{"mesh, mesh in another order", b, a},
-                           Pair{"mesh, shifted mesh", a, shifted}, Pair{"mesh, flat box", a, flat},
-                           Pair{"flat box, mesh", flat, b}, Pair{"mesh, slab", a, slab}, Pair{"slab, mesh", slab, b}}) {
-    const ParsedScene both = scene_of(two_quads(pair.first, pair.second, side));
-    const ParsedScene alone = scene_of(two_quads(pair.first, "", side));
-    const Picture with = picture_of(both, context.pool), without = picture_of(alone, context.pool);
-    int64_t in_common = 0, first_shown = 0;
-    for (size_t i = 0; i < with.ids.size(); ++i) {
-      if (without.ids[i] == kNothingHit) continue;
-      ++in_common;
-      first_shown += with.ids[i] == without.ids[i] && with.rgb[3 * i + 1] == without.rgb[3 * i + 1];
-    }
-    out.ours.push_back(
-        at_least(100, std::string(pair.what) + ": pixels that show the first, %", percent(first_shown, in_common)));
-    if (pair.first != flat && pair.second != flat) {
-      const auto textbook = TextbookTracer(both.scene).picture(both.view, *both.view.camera, context.pool);
-      int64_t shown = 0;
-      for (size_t i = 0; i < with.ids.size(); ++i) shown += without.ids[i] != kNothingHit && textbook.ids[i] >> 32 == 0;
-      out.naive.push_back(
-          at_least(100, std::string(pair.what) + ": pixels that show the first, %", percent(shown, in_common)));
-    }
-  }
-  return out;
-}
-
 // A pawn on a board, lit from behind at 45 degrees. Its foot overhangs the circle it stands on, of radius 0.265, up to
 // a height of 0.0756: behind it the board is dark from the circle on.
 std::string pawn_on_board(double size, int side) {
@@ -266,6 +195,8 @@ constexpr Row kRows[] = {
     {"H1", "light that grazes a plane", "elevation 0.1 and 0.001 degrees", "shadow rays lifted by 0 or 1e-5", acne},
     {"H2", "contact", "a box on a floor, light at 45 degrees, 4096 pixels", "shadow rays lifted by 1e-2", contact},
     {"H4", "two surfaces in one plane", "planes apart by rounding alone", "the smaller t wins", coplanar},
+    {"H5", "two surfaces almost in one plane", "a gap of 1e-6 at 100, between things at 0.01 and 1e4",
+     "z / w in float, near 0.01 and far 1e4", nearly_coplanar},
     {"H6", "a pawn on its board", "sizes 1e-9 to 1e9", "shadow rays lifted by 1e-3", pawn_contact},
     {"H7", "a lamp in its shade", "radius 1e-9 of the distance", "shadow rays end 1e-4 before the light (pbrt)",
      lampshade},

@@ -6,6 +6,7 @@
 #include "renderer/base/elementary.h"
 #include "renderer/check/check.h"
 #include "renderer/check/kit/pictures.h"
+#include "renderer/check/rows/raster.h"
 #include "renderer/measure/reference.h"
 #include "renderer/raster/lines/line_pieces.h"
 
@@ -173,7 +174,9 @@ std::string pieces_text() {
     {"type":"box","min":[-2,-0.2,-2],"max":[2,0,2]}]})";
 }
 
-Outcome roberts(const Context& context) {
+}  // namespace
+
+Outcome hidden_lines(const Context& context) {
   const auto is_junction = [](const DrawnLine& line) { return line.kind == LineKind::junction; };
   const auto is_any = [](const DrawnLine&) { return true; };
   double junction = 0.0, without_junctions = 0.0;
@@ -204,12 +207,5 @@ Outcome roberts(const Context& context) {
           {at_most(1e-6, "without junctions: length of what the cubes show, relative error", without_junctions),
            at_most(1e-6, "bars painted whole: visible length, relative error", off_by(painted, bars.visible()))}};
 }
-
-constexpr Row kRows[] = {{"R6", "hidden lines", "two cubes through each other, three bars in a circle, chessmen",
-                          "no junctions; bars painted one after the other", roberts}};
-
-}  // namespace
-
-std::span<const Row> line_rows() { return kRows; }
 
 }  // namespace tilelight::check
