@@ -93,7 +93,10 @@ std::vector<int> doubled(int first, bool is_quick) {
 Sweep by_pixels(bool is_quick) {
   Sweep out{"pixels",
             "pixels",
-            {{"raytrace", "b n"}, {"zbuffer", "a + b n"}, {"warnock", "a + b n, or less: with the edges in view"}},
+            {{"raytrace", "b n"},
+             {"zbuffer", "a + b n"},
+             {"warnock", "a + b n, or less: with the edges in view"},
+             {"roberts", "a + b n: ink is sampled"}},
             {}};
   for (const int side : is_quick ? std::vector{64, 128, 256} : std::vector{96, 136, 192, 272, 384, 544, 768})
     out.points.push_back({1.0 * side * side, [=] { return subject_of(waves(32), side, 1); }, {}});
@@ -103,7 +106,10 @@ Sweep by_pixels(bool is_quick) {
 Sweep by_triangles(bool is_quick) {
   Sweep out{"triangles",
             "triangles, all of them in view",
-            {{"raytrace", "a + b log n"}, {"zbuffer", "a + b n"}, {"warnock", "a + b n: all are seen"}},
+            {{"raytrace", "a + b log n"},
+             {"zbuffer", "a + b n"},
+             {"warnock", "a + b n: all are seen"},
+             {"roberts", "b n^2 of old; a + b n, an edge meeting few faces"}},
             {}};
   for (const int count : doubled(is_quick ? 512 : 8192, is_quick)) {
     const int cells = static_cast<int>(std::lround(std::sqrt(0.5 * count)));
@@ -113,18 +119,24 @@ Sweep by_triangles(bool is_quick) {
 }
 
 Sweep by_depth(bool is_quick) {
-  Sweep out{
-      "depth complexity",
-      "surfaces at each pixel, the farther ones first",
-      {{"raytrace", "a + b log n"}, {"zbuffer", "a + b n"}, {"warnock", "a, with a small b n to look at each once"}},
-      {}};
+  Sweep out{"depth complexity",
+            "surfaces at each pixel, the farther ones first",
+            {{"raytrace", "a + b log n"},
+             {"zbuffer", "a + b n"},
+             {"warnock", "a, with a small b n to look at each once"},
+             {"roberts", "a, with a small b n"}},
+            {}};
   for (const int count : doubled(is_quick ? 2 : 64, is_quick))
     out.points.push_back({1.0 * count, [=] { return subject_of(curtains(count), is_quick ? 64 : 192, 1); }, {}});
   return out;
 }
 
 Sweep by_lights(bool is_quick) {
-  Sweep out{"lights", "lights", {{"raytrace", "a + b n"}, {"zbuffer", "a + b n"}, {"warnock", "a + b n"}}, {}};
+  Sweep out{
+      "lights",
+      "lights",
+      {{"raytrace", "a + b n"}, {"zbuffer", "a + b n"}, {"warnock", "a + b n"}, {"roberts", "a: lines know no light"}},
+      {}};
   for (const int count : doubled(is_quick ? 1 : 8, is_quick))
     out.points.push_back({1.0 * count, [=] { return subject_of(waves(32), is_quick ? 64 : 192, count); }, {}});
   return out;
