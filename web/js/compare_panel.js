@@ -3,7 +3,7 @@
 import { Comparison } from './compare.js';
 import { CompareView } from './compare_view.js';
 import { byId, el } from './dom.js';
-import { kNoWords, knownWish, methodName, methodOf } from './methods.js';
+import { kNoWords, knownWish, methodOf } from './methods.js';
 import { countText, duration, errorText, ratioText, samplesText, shareText, stepsText } from './numbers.js';
 import { comparableSamples } from './rules.js';
 import { WordSelects } from './word_select.js';
@@ -141,7 +141,7 @@ export class ComparePanel {
 
   #name() {
     this.#methods.forEach((method, side) => this.#selects[side].show(method));
-    this.#view.setNames(this.#methods.map(methodName));
+    this.#view.setMethods(this.#methods);
   }
 
   #say(sentence) {
@@ -151,7 +151,7 @@ export class ComparePanel {
   #tell(difference) {
     const { pixels, differing, rms, largest } = difference ?? {};
     byId('compare-differing').textContent = difference ? shareText(differing, pixels) : '–';
-    byId('compare-pixels').textContent = difference ? `${countText(differing)} of ${countText(pixels)}` : 'of the pixels';
+    byId('compare-pixels').textContent = difference ? `${countText(differing)} pixels` : 'of the pixels';
     byId('compare-rms').textContent = difference ? errorText(rms) : '–';
     byId('compare-rms-steps').textContent = difference ? stepsText(rms) : 'in the mean';
     byId('compare-largest').textContent = difference ? errorText(largest) : '–';

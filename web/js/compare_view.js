@@ -4,6 +4,7 @@
 import { drawDifference, differenceOf } from './difference.js';
 import { columnsLeft, shareAfterKey, shareAt } from './divider.js';
 import { byId } from './dom.js';
+import { methodName, nameOf } from './methods.js';
 
 export class CompareView {
   #layer = byId('compare');
@@ -12,7 +13,7 @@ export class CompareView {
   #divider = byId('divider');
   #tags = [byId('compare-tag-a'), byId('compare-tag-b')];
   #bitmaps = [null, null];
-  #names = ['', ''];
+  #names = ['', ''];  // of the methods, as they are spoken
   #gain = null;  // null: the divider
   #share = 0.5;
 
@@ -37,9 +38,12 @@ export class CompareView {
     this.#layer.classList.toggle('is-waiting', !isCurrent);
   }
 
-  setNames(names) {
-    this.#names = names;
-    names.forEach((name, side) => { this.#tags[side].querySelector('.tag-name').textContent = name; });
+  setMethods(methods) {
+    this.#names = methods.map(methodName);
+    methods.forEach(({ algorithm, shading }, side) => {
+      this.#tags[side].querySelector('.tag-algorithm').textContent = nameOf(algorithm);
+      this.#tags[side].querySelector('.tag-shading').textContent = nameOf(shading);
+    });
     this.#move(this.#share);
   }
 
