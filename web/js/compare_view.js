@@ -56,6 +56,7 @@ export class CompareView {
   setGain(gain) {
     this.#gain = gain;
     this.#layer.classList.toggle('is-difference', gain !== null);
+    byId('compare-tag-gain').textContent = gain === null ? '' : `× ${gain}`;
     this.#draw();
   }
 
