@@ -145,7 +145,8 @@ export class ComparePanel {
   }
 
   #say(sentence) {
-    byId('compare-state').textContent = sentence;
+    const state = byId('compare-state');
+    if (state.textContent !== sentence) state.textContent = sentence;  // spoken once
   }
 
   #tell(difference) {
