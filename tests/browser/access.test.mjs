@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { afterMoving, finished, kDesktop, kPhone, kQuickScene, onPage, openPanel, startServer } from './harness.mjs';
+import { afterMoving, compared, finished, kDesktop, kPhone, kQuickScene, onPage, openPanel, startServer } from './harness.mjs';
 
 const kAxe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
@@ -31,7 +31,7 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
         path: where, expected: [/422/],
       }, async ({ page }) => {
         assert.deepEqual(await findViolations(page), [], 'closed');
-        for (const panel of ['scenes', 'edit', 'plan', 'error']) {
+        for (const panel of ['scenes', 'edit', 'plan', 'error', 'method']) {
           await openPanel(page, panel);
           assert.deepEqual(await findViolations(page), [], panel);
           if (panel === 'edit' && size === 'phone') {
@@ -52,6 +52,13 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
             await page.waitForSelector('#rule-error:not(:empty)');
             assert.deepEqual(await findViolations(page), [], 'error with colours and a number that is none');
           }
+          if (panel === 'method') {
+            await page.check('#compare-toggle');
+            await compared(page);
+            assert.deepEqual(await findViolations(page), [], 'two methods side by side');
+            await page.click('.segments label:has([value=difference])');
+            assert.deepEqual(await findViolations(page), [], 'the difference of two methods');
+          }
           await page.keyboard.press('Escape');
         }
       });
@@ -61,17 +68,17 @@ for (const [size, settings, where] of [['desktop', kDesktop, kQuickScene], ['pho
 
 test('every control has a name and shows the focus', async () => {
   await onPage({ server, path: kQuickScene }, async ({ page }) => {
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, textarea, canvas:not([aria-hidden])')]
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, textarea, [role=slider], canvas:not([aria-hidden])')]
       .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length || e.getAttribute('aria-labelledby')))
       .map((e) => e.outerHTML));
     assert.deepEqual(nameless, []);
     const seen = [];
-    for (let i = 0; i < 9; ++i) {
+    for (let i = 0; i < 10; ++i) {
       await page.keyboard.press('Tab');
       seen.push(await page.evaluate(() => [document.activeElement.id, getComputedStyle(document.activeElement).outlineStyle]));
     }
     assert.deepEqual(seen.map(([id]) => id), ['picture', 'scenes-button', 'edit-button', 'plan-button', 'error-button',
-      'reset-button', 'link-button', 'curl-button', 'download-button']);
+      'method-button', 'reset-button', 'link-button', 'curl-button', 'download-button']);
     assert.ok(seen.every(([, outline]) => outline === 'solid'));
   });
 });

@@ -92,6 +92,12 @@ export async function afterMoving(page, move) {
   await finished(page);
 }
 
+// Until both pictures of a comparison are there, and the numbers about them.
+export async function compared(page) {
+  await page.waitForFunction(() => /^Drawn with/.test(document.getElementById('compare-state').textContent)
+    && document.getElementById('compare-differing').textContent !== '–');
+}
+
 export async function openPanel(page, name) {
   await page.click(`#${name}-button`);
   await page.waitForSelector(`#${name}-panel`);

@@ -337,7 +337,7 @@ for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { widt
         await shoot(page, `${name}-${what}`);
       };
       await check('closed');
-      for (const panel of ['scenes', 'edit', 'plan', 'error']) {
+      for (const panel of ['scenes', 'edit', 'plan', 'error', 'method']) {
         await openPanel(page, panel);
         await check(panel);
         await page.keyboard.press('Escape');

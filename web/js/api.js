@@ -86,6 +86,16 @@ export async function limits() {
   return jsonOf(call('/v1/limits'));
 }
 
+// The scene language as the server speaks it: a JSON Schema.
+export async function sceneSchema() {
+  return jsonOf(call('/v1/schema/scene.json'));
+}
+
+// The id under which the server keeps a scene, for a while.
+export async function storeScene(sceneText) {
+  return (await jsonOf(call('/v1/scenes', { method: 'POST', headers: kJson, body: sceneText }))).id;
+}
+
 // What the server would do for a whole scene document, and what that should cost; nothing is drawn.
 export async function planOf(document) {
   return jsonOf(call('/v1/plan', { method: 'POST', headers: kJson, body: JSON.stringify(document) }));
@@ -98,13 +108,37 @@ export async function renderImage(document, format = 'image/png') {
   const response = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(document) });
   if (response.status !== 202) return blobOf(response);
   const job = response.headers.get('Location');
+  await finished(job);
+  return imageOf(job, format);
+}
+
+// As renderImage(), with the server's report: {blob, report}. An order that is called off by `signal` is taken back.
+export async function renderStill(body, { format = 'image/png', signal } = {}) {
+  const headers = { ...kJson, Prefer: 'respond-async' };
+  // Not called off half way: nobody would know the name of the job, and so could take it back.
+  const accepted = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(body) });
+  const job = accepted.headers.get('Location');
+  try {
+    const { report } = await finished(job, signal);
+    return { blob: await imageOf(job, format, signal), report };
+  } finally {
+    call(job, { method: 'DELETE', keepalive: true }).catch(() => {});  // the server forgets it by itself, later
+  }
+}
+
+// The status of a job when it is done.
+async function finished(job, signal) {
   for (;;) {
-    const status = await jsonOf(call(job, { headers: { Prefer: 'wait=30' } }));
-    if (status.state === 'done') return blobOf(call(`${job}/image`, { headers: { Accept: format } }));
+    const status = await jsonOf(call(job, { headers: { Prefer: 'wait=30' }, signal }));
+    if (status.state === 'done') return status;
     if (status.state !== 'queued' && status.state !== 'running') {
       throw new Problem(409, { detail: status.error?.detail ?? `The render was ${status.state}.` });
     }
   }
+}
+
+function imageOf(job, format, signal) {
+  return blobOf(call(`${job}/image`, { headers: { Accept: format }, signal }));
 }
 
 // {spp, rmse, stop} of a Render-Info header: samples a pixel, the error of the picture (null while unknown) and the rule

@@ -4,9 +4,7 @@
 import { Curves } from './curves.js';
 import { byId, el } from './dom.js';
 import { drawErrorPlot } from './error_plot.js';
-import { duration, errorText, samplesNumber } from './numbers.js';
-
-const kSteps = 255;  // of 8 bits
+import { duration, errorText, samplesNumber, stepsText } from './numbers.js';
 
 export class ErrorPanel {
   #panel = byId('error-panel');
@@ -42,12 +40,8 @@ export class ErrorPanel {
 
   #tell({ spp, rmse, ms }) {
     byId('error-now').textContent = rmse === null ? '–' : errorText(rmse);
-    byId('error-steps').textContent = rmse === null ? 'takes two samples' : stepsText(rmse * kSteps);
+    byId('error-steps').textContent = rmse === null ? 'takes two samples' : stepsText(rmse);
     byId('error-samples').textContent = samplesNumber(spp);
     byId('error-time').textContent = duration(ms) ?? '–';
   }
-}
-
-function stepsText(steps) {
-  return steps < 0.095 ? 'under 0.1 of 255 steps' : `${Number(steps.toPrecision(2))} of 255 steps`;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan panel: what the scene uses, what was left out and why, and its size in the server.
 import { el } from './dom.js';
-import { duration, errorText } from './numbers.js';
+import { countText, duration, errorText } from './numbers.js';
 
-const kCount = new Intl.NumberFormat('en');
 const kTimingNames = { parse: 'Reading', queue: 'Waiting', compile: 'Compiling', render: 'Rendering', encode: 'Encoding' };
 
 export function showPlan(container, info) {
@@ -30,7 +29,7 @@ export function showTimings(container, timings) {
 
 // What it should take with the machine to itself, and how good it will be: {elapsed_ms, mrays, rmse or null}.
 export function showPrediction(container, { elapsed_ms: ms, mrays, rmse }) {
-  const rays = mrays < 1 ? 'under a million rays' : `${kCount.format(Math.round(mrays))} million rays`;
+  const rays = mrays < 1 ? 'under a million rays' : `${countText(Math.round(mrays))} million rays`;
   const error = Number.isFinite(rmse) ? `, error ${errorText(rmse)}` : '';
   container.querySelector('.predicted').replaceChildren(...rows([['Predicted', `${duration(ms)}, ${rays}${error}`]]));
 }
@@ -77,13 +76,13 @@ function rows(entries) {
 }
 
 function count(n) {
-  return n === undefined ? null : kCount.format(n);
+  return n === undefined ? null : countText(n);
 }
 
 function triangles(of) {
   if (!of) return null;
-  if (!of.instanced || of.instanced === of.stored) return kCount.format(of.stored);
-  return `${kCount.format(of.instanced)} drawn, ${kCount.format(of.stored)} stored`;
+  if (!of.instanced || of.instanced === of.stored) return countText(of.stored);
+  return `${countText(of.instanced)} drawn, ${countText(of.stored)} stored`;
 }
 
 function bytes(n) {

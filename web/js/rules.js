@@ -72,3 +72,11 @@ export function samplesAsked(render = {}) {
   const listed = Array.isArray(render.passes) ? render.passes.reduce((sum, pass) => sum + pass, 0) : null;
   return render.samples ?? listed ?? (render.time_ms || render.rmse ? null : kServerSamples);
 }
+
+// Samples a pixel for pictures that shall differ in nothing but their method: as many as are asked for, and where an
+// error or a time ends the picture, no more than a scene without rules takes.
+export function comparableSamples(render = {}) {
+  const isOpen = Boolean(render.time_ms || render.rmse);
+  const samples = Math.max(1, Math.round(samplesAsked(render) ?? kServerSamples));
+  return isOpen ? Math.min(samples, kServerSamples) : samples;
+}

@@ -29,6 +29,12 @@ export function sameCamera(textA, textB) {
   return a !== undefined && b !== undefined && JSON.stringify(a?.camera ?? null) === JSON.stringify(b?.camera ?? null);
 }
 
+// What a scene's text says under `render`; nothing of a text that is no scene.
+export function renderOf(text) {
+  const render = parsed(text)?.render;
+  return typeof render === 'object' && render !== null ? render : {};
+}
+
 // Offset of (line, column), both from 1, in the text; its end if there is no such place.
 export function offsetOf(text, line, column) {
   let start = 0;

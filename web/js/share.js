@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The present view in a form that leaves the page: a link, or a command for a shell. Pure but for the compression, which
 // the browser does.
+import { kMethodKeys } from './methods.js';
 import { kRules, readRule, withRule } from './rules.js';
 
-// A scene document with the picture's present camera, size and stop rule.
-export function stillDocument(sceneText, { camera, image, rule = null }) {
+// A scene document with the picture's present camera, size, stop rule and method.
+export function stillDocument(sceneText, { camera, image, rule = null, method = {} }) {
   const scene = JSON.parse(sceneText);
+  const render = { ...withRule(scene.render, rule), ...method };
   const out = { ...scene, camera, image: { ...scene.image, ...image } };
-  return rule ? { ...out, render: withRule(scene.render, rule) } : out;
+  return Object.keys(render).length > 0 ? { ...out, render } : out;
 }
 
 // A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
@@ -23,20 +25,21 @@ export function curlCommand(origin, document) {
   ].join('\n');
 }
 
-// {scene: name} or {text: scene JSON}, {camera} and {rule}, to and from the part of a link after its #.
-export async function encodeLink({ scene, text, camera, rule }) {
+// {scene: name} or {text: scene JSON}, {camera}, {rule} and {method}, to and from the part of a link after its #.
+export async function encodeLink({ scene, text, camera, rule, method }) {
   const parts = new URLSearchParams();
   if (text) parts.set('json', toBase64Url(await deflate(text)));
   else parts.set('scene', scene);
   if (camera) parts.set('camera', cameraNumbers(camera).join(','));
-  return linkWithRule(parts, rule);
+  return linkWith(parts, { rule, method });
 }
 
-// A link with another rule, and all else as it was.
-export function linkWithRule(hash, rule) {
+// A link with another rule and method, and all else as it was.
+export function linkWith(hash, { rule = null, method = {} }) {
   const parts = new URLSearchParams(typeof hash === 'string' ? hash.replace(/^#/, '') : hash);
-  for (const key of Object.keys(kRules)) parts.delete(key);
+  for (const key of [...Object.keys(kRules), ...kMethodKeys]) parts.delete(key);
   if (rule) parts.set(rule.key, String(rule.value));
+  for (const key of kMethodKeys) if (method[key]) parts.set(key, method[key]);
   return `#${decodeURIComponent(parts.toString())}`;
 }
 
@@ -47,13 +50,18 @@ export async function decodeLink(hash) {
   const text = json === null ? null : await inflate(fromBase64Url(json)).catch(() => null);
   return {
     scene: parts.get('scene'), text, camera: cameraFrom(parts.get('camera')), rule: ruleFrom(parts),
-    isDamaged: json !== null && !text,
+    method: methodFrom(parts), isDamaged: json !== null && !text,
   };
 }
 
 function ruleFrom(parts) {
   const key = Object.keys(kRules).find((name) => parts.has(name));
   return key ? readRule(key, parts.get(key), { factor: 1 }).rule ?? null : null;
+}
+
+// Whether the words mean anything is for the server's schema to say.
+function methodFrom(parts) {
+  return Object.fromEntries(kMethodKeys.filter((key) => parts.get(key)).map((key) => [key, parts.get(key)]));
 }
 
 function cameraNumbers(camera) {

@@ -23,6 +23,7 @@ export class Viewer {
   #camera = null;
   #home = null;
   #rule = null;
+  #method = {};
   #pictureAspect = 16 / 9;
   #full = { width: 1, height: 1 };
   #scale = kFirstScale;
@@ -53,10 +54,12 @@ export class Viewer {
     addEventListener('pagehide', () => this.#session.close());
   }
 
-  // Shows the scene whose text `load()` gives. `camera` = where to look from, instead of the scene's own camera.
-  open(load, camera) {
+  // Shows the scene whose text `load()` gives. `camera` = where to look from, instead of the scene's own camera;
+  // `adaptMethod(wish)` = what is left of the wish for a method once the scene is there.
+  open(load, camera, adaptMethod) {
     return this.#session.open(load, (info) => {
       this.#inertia.stop();
+      this.#method = adaptMethod(this.#method);
       this.#home = info.camera;
       this.#pictureAspect = info.image.width / info.image.height;
       this.#camera = { ...info.camera, ...camera };
@@ -68,6 +71,11 @@ export class Viewer {
   // What ends the pictures that are asked for from now on, as of rules.js; null = what the scene says.
   setRule(rule) {
     this.#rule = rule;
+  }
+
+  // What draws the pictures that are asked for from now on.
+  setMethod(method) {
+    this.#method = method;
   }
 
   // Asks for the present view from the first sample on.
@@ -83,9 +91,9 @@ export class Viewer {
     return this.#camera;
   }
 
-  // What a full render of the present view takes: the keys `camera` and `image` of a scene, and the rule.
+  // What a full render of the present view takes: the keys `camera` and `image` of a scene, the rule and the method.
   get still() {
-    return { camera: this.#fitted(), image: { ...this.#full }, rule: this.#rule };
+    return { camera: this.#fitted(), image: { ...this.#full }, rule: this.#rule, method: this.#method };
   }
 
   reset() {
@@ -102,8 +110,8 @@ export class Viewer {
 
   #view(moving) {
     const image = moving ? scaledSize(this.#full, this.#scale) : this.#full;
-    const render = this.#rule && !moving ? { render: rulePatch(this.#rule) } : {};
-    return { camera: this.#fitted(), image, moving, ...render };
+    const render = { ...(this.#rule && !moving ? rulePatch(this.#rule) : {}), ...this.#method };
+    return { camera: this.#fitted(), image, moving, ...(Object.keys(render).length > 0 ? { render } : {}) };
   }
 
   #move(part, cursor) {

@@ -2,7 +2,7 @@
 // What ends a picture: what users may ask for, and what is sent and said of it.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { describeRules, endOf, kRules, progressOf, readRule, rulePatch, withRule } from '../../../web/js/rules.js';
+import { comparableSamples, describeRules, endOf, kRules, progressOf, readRule, rulePatch, withRule } from '../../../web/js/rules.js';
 
 test('a number becomes a rule in the unit of the scene language', () => {
   assert.deepEqual(readRule('samples', ' 64 ').rule, { key: 'samples', value: 64 });
@@ -69,4 +69,13 @@ test('a finished picture says why it is finished', () => {
   assert.equal(endOf({ stop: 'rmse', spp: 12.6 }, { rmse: 0.004 }), 'Error 0.004 reached');
   assert.equal(endOf({ stop: 'time', spp: 12.6 }, { time_ms: 2000 }), 'Time is up: 2 s');
   assert.equal(endOf({ stop: 'samples', spp: 1 }, { rmse: 1e-9 }), '1 sample taken');
+});
+
+test('pictures to be compared have as many samples as are asked for, and few where an error or a time would end them', () => {
+  assert.equal(comparableSamples({}), 16);
+  assert.equal(comparableSamples({ samples: 64 }), 64);
+  assert.equal(comparableSamples({ passes: [1, 1, 2] }), 4);
+  assert.equal(comparableSamples({ rmse: 0.001 }), 16);
+  assert.equal(comparableSamples({ time_ms: 60_000, samples: 4096 }), 16);
+  assert.equal(comparableSamples({ time_ms: 60_000, samples: 2 }), 2);
 });

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { parseRenderInfo, parseServerTiming } from '../../../web/js/api.js';
 import { findPosition, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
-import { curlCommand, decodeLink, encodeLink, linkWithRule, stillDocument } from '../../../web/js/share.js';
+import { curlCommand, decodeLink, encodeLink, linkWith, stillDocument } from '../../../web/js/share.js';
 
 const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
 const kText = `{
@@ -65,7 +65,7 @@ test('a link brings back scene, text and camera', async () => {
 });
 
 test('a broken link is no link, and one with a text that cannot be read is known as damaged', async () => {
-  const nothing = { scene: null, text: null, camera: null, rule: null, isDamaged: false };
+  const nothing = { scene: null, text: null, camera: null, rule: null, method: {}, isDamaged: false };
   for (const hash of ['', '#', '#camera=p,1,2', '#camera=p,a,b,c,d,e,f,g,h,i,j']) {
     assert.deepEqual(await decodeLink(hash), nothing);
   }
@@ -86,14 +86,27 @@ test('a stop rule goes into a link and into a still picture, in place of what th
   const link = await encodeLink({ scene: 'opening', camera: kCamera, rule });
   assert.match(link, /&rmse=0\.004$/);
   assert.deepEqual((await decodeLink(link)).rule, rule);
-  assert.equal(linkWithRule(link, null), await encodeLink({ scene: 'opening', camera: kCamera }));
-  assert.equal(linkWithRule('', { key: 'time_ms', value: 500 }), '#time_ms=500');
+  assert.equal(linkWith(link, {}), await encodeLink({ scene: 'opening', camera: kCamera }));
+  assert.equal(linkWith('', { rule: { key: 'time_ms', value: 500 } }), '#time_ms=500');
   for (const odd of ['#rmse=', '#rmse=-1', '#rmse=x', '#samples=1.5', '#samples=0', '#time_ms=1e9']) {
     assert.equal((await decodeLink(odd)).rule, null, odd);
   }
   const text = '{"render": {"samples": 16, "passes": [1, 15], "max_depth": 10}, "objects": []}';
   const { render } = stillDocument(text, { camera: kCamera, image: {}, rule });
   assert.deepEqual(render, { max_depth: 10, rmse: 0.004 });
+});
+
+test('a method goes into a link and into a still picture, over what the scene says', async () => {
+  const method = { algorithm: 'zbuffer', shading: 'gouraud' };
+  const link = await encodeLink({ scene: 'opening', camera: kCamera, method });
+  assert.match(link, /&algorithm=zbuffer&shading=gouraud$/);
+  assert.deepEqual((await decodeLink(link)).method, method);
+  assert.deepEqual((await decodeLink('#shading=flat')).method, { shading: 'flat' });
+  assert.equal(linkWith(link, {}), await encodeLink({ scene: 'opening', camera: kCamera }));
+  const text = '{"render": {"algorithm": "warnock", "seed": 3}, "objects": []}';
+  assert.deepEqual(stillDocument(text, { camera: kCamera, image: {}, method: { shading: 'flat' } }).render,
+    { algorithm: 'warnock', seed: 3, shading: 'flat' });
+  assert.equal('render' in stillDocument('{"objects": []}', { camera: kCamera, image: {}, method: {} }), false);
 });
 
 test('a curl command holds the scene where the shell changes nothing', () => {
