@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
 #include "renderer/cli/commands.h"
 #include "renderer/cli/complain.h"
-#include "renderer/cli/files.h"
+#include "renderer/cli/folder.h"
 #include "renderer/cli/interrupt.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/renderer.h"
@@ -16,8 +13,6 @@
 
 namespace tilelight::cli {
 namespace {
-
-using File = std::pair<std::string, Result<std::string>>;
 
 std::vector<File> files_of(const Comparison& c) {
   std::vector<File> files;
@@ -36,15 +31,6 @@ std::vector<File> files_of(const Comparison& c) {
   files.emplace_back("compare.json", comparison_json(c));
   files.emplace_back("compare.html", comparison_html(c));  // last: it shows the others
   return files;
-}
-
-ExitCode write_files(const Comparison& comparison, const std::filesystem::path& folder) {
-  for (const auto& [name, bytes] : files_of(comparison)) {
-    if (!bytes) return complain(kFailed, bytes.error().detail);
-    if (auto written = write_output((folder / name).string(), *bytes); !written)
-      return complain(kFailed, written.error().detail);
-  }
-  return kOk;
 }
 
 void print_summary(const Comparison& c, const std::string& folder) {
@@ -75,11 +61,7 @@ ExitCode run_compare(const SceneText& source, const CompareArguments& arguments)
   if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
   const ParsedScene& document = std::get<ParsedScene>(parsed);
 
-  std::error_code error;
-  std::filesystem::create_directories(arguments.output, error);
-  if (error) return complain(kFailed, arguments.output + ": " + error.message());
-  const std::string page = (std::filesystem::path(arguments.output) / "compare.html").string();
-  if (auto writable = check_can_write(page); !writable) return complain(kFailed, writable.error().detail);
+  if (const ExitCode code = make_folder(arguments.output, "compare.html"); code != kOk) return code;
 
   TilePool pool(arguments.threads);
   ProgressLine line;
@@ -93,7 +75,7 @@ ExitCode run_compare(const SceneText& source, const CompareArguments& arguments)
   const auto comparison = compare_methods(document, source.name, pool, options);
   line.clear();
   if (!comparison) return complain(kInterrupted, "interrupted; nothing was written");
-  const ExitCode code = write_files(*comparison, arguments.output);
+  const ExitCode code = write_files(files_of(*comparison), arguments.output);
   if (code == kOk) print_summary(*comparison, arguments.output);
   return code;
 }

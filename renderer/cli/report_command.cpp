@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <filesystem>
 
 #include "renderer/cli/commands.h"
 #include "renderer/cli/complain.h"
-#include "renderer/cli/files.h"
+#include "renderer/cli/folder.h"
 #include "renderer/cli/interrupt.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/renderer.h"
@@ -14,26 +13,18 @@
 namespace tilelight::cli {
 namespace {
 
-// The files of the study, each whole or not at all.
-ExitCode write_files(const Study& study, const std::filesystem::path& folder) {
+std::vector<File> files_of(const Study& study) {
   const DisplayedImage shown = displayed_image(*study.picture, study.exposure);
   const std::vector<float> off = error_by_pixel(shown, displayed_image(*study.reference, study.exposure));
   const auto png = [&](const Image& image, double exposure) { return encode_image(image, exposure, ImageFormat::png); };
-  const std::pair<const char*, Result<std::string>> files[] = {
-      {"study.json", study_json(study)},
-      {"runs.csv", study_csv(study)},
-      {"error_time.svg", study_svg(study)},
-      {"reference.png", png(*study.reference, study.exposure)},
-      {"picture.png", png(*study.picture, study.exposure)},
-      {"error.png", png(heat_map(study.width, study.height, off), 0.0)},
-      {"told.png", png(heat_map(study.width, study.height, study.told_bounds), 0.0)},
-      {"report.html", study_html(study)}};
-  for (const auto& [name, bytes] : files) {
-    if (!bytes) return complain(kFailed, bytes.error().detail);
-    if (auto written = write_output((folder / name).string(), *bytes); !written)
-      return complain(kFailed, written.error().detail);
-  }
-  return kOk;
+  return {{"study.json", study_json(study)},
+          {"runs.csv", study_csv(study)},
+          {"error_time.svg", study_svg(study)},
+          {"reference.png", png(*study.reference, study.exposure)},
+          {"picture.png", png(*study.picture, study.exposure)},
+          {"error.png", png(heat_map(study.width, study.height, off), 0.0)},
+          {"told.png", png(heat_map(study.width, study.height, study.told_bounds), 0.0)},
+          {"report.html", study_html(study)}};
 }
 
 void print_summary(const Study& study, const std::string& folder) {
@@ -58,11 +49,7 @@ ExitCode run_report(const SceneText& source, const ReportArguments& arguments) {
   ParsedScene& document = std::get<ParsedScene>(parsed);
   if (!arguments.view.width && !arguments.view.height) document.view.image = study_size(document.view.image);
 
-  std::error_code error;
-  std::filesystem::create_directories(arguments.output, error);
-  if (error) return complain(kFailed, arguments.output + ": " + error.message());
-  const std::string first = (std::filesystem::path(arguments.output) / "report.html").string();
-  if (auto writable = check_can_write(first); !writable) return complain(kFailed, writable.error().detail);
+  if (const ExitCode code = make_folder(arguments.output, "report.html"); code != kOk) return code;
 
   TilePool pool(arguments.threads);
   ProgressLine line;
@@ -75,7 +62,7 @@ ExitCode run_report(const SceneText& source, const ReportArguments& arguments) {
   const auto study = make_study(document, source.name, pool, options);
   line.clear();
   if (!study) return complain(kInterrupted, "interrupted; nothing was written");
-  const ExitCode code = write_files(*study, arguments.output);
+  const ExitCode code = write_files(files_of(*study), arguments.output);
   if (code == kOk) print_summary(*study, arguments.output);
   return code;
 }

@@ -164,6 +164,46 @@ TEST(Raster, KnowsLocalLightAloneAndSaysSo) {
   EXPECT_TRUE(says("feature spheres", "triangles"));
 }
 
+// Two squares side by side, seen in parallel: seven lines of known lengths.
+constexpr const char* kSquares = R"({
+  "image": {"width": 200, "height": 100},
+  "camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": 2},
+  "objects": [{"type": "box", "min": [-1.5, -0.5, -1], "max": [-0.5, 0.5, 0]},
+              {"type": "box", "min": [0.5, -0.5, -1], "max": [1.5, 0.5, 0]}]})";
+
+TEST(Roberts, InksTheAreaOfItsLines) {
+  const Image image = *draw(kSquares, by(Algorithm::roberts, Shading::phong, 64)).image;
+  double ink = 0.0;
+  for (size_t i = 0; i < image.rgb.size(); i += 3) ink += (1.0 - image.rgb[i]) / 0.99;
+  // Strokes of 1.5 pixels about squares of 50: less half a corner's square at each, with round ends.
+  EXPECT_NEAR(ink, 2 * 4 * 50 * 1.5, 0.02 * 2 * 4 * 50 * 1.5);
+}
+
+TEST(Roberts, GivesLinesAsSvgAndDashesHiddenOnesOnRequest) {
+  const auto parsed = parse_scene(kScene, Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(2);
+  const auto scene = compile_scene(parsed->scene, pool);
+  size_t plain = 0;
+  for (const bool hidden : {false, true}) {
+    View view = parsed->view;
+    view.render.algorithm = Algorithm::roberts, view.render.samples = 2, view.render.hidden_lines = hidden;
+    const auto render = Render::start(pool, Priority::normal, scene, plan_view(*scene, view));
+    ASSERT_TRUE(render->wait_ms(1e12));
+    const std::string svg = render->lines_svg();
+    EXPECT_EQ(svg.compare(0, 4, "<svg"), 0) << svg.substr(0, 80);
+    EXPECT_EQ(svg.find("stroke-dasharray") != std::string::npos, hidden);
+    EXPECT_GT(svg.size(), plain);
+    plain = svg.size();
+    EXPECT_EQ(render->report().points.back().truncation_bound, 0.0) << "lines leave no light out";
+  }
+  View view = parsed->view;
+  view.render.samples = 1;
+  const auto rays = Render::start(pool, Priority::normal, scene, plan_view(*scene, view));
+  ASSERT_TRUE(rays->wait_ms(1e12));
+  EXPECT_TRUE(rays->lines_svg().empty());
+}
+
 // A triangle in the plane z = 0, seen head on in parallel, lit by a light at (0, 0, 1) without attenuation: at a place
 // r from the origin the cosine is 1 / sqrt(1 + r^2).
 constexpr const char* kTriangle = R"({
