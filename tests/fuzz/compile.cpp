@@ -52,6 +52,28 @@ void check_compiled(const CompiledScene& scene, std::string_view text) {
     REQUIRE(!warning.code.empty() && !warning.detail.empty(), told);
 }
 
+std::vector<float> draw(const std::shared_ptr<const CompiledScene>& scene, const View& view, TilePool& pool,
+                        const std::string& told) {
+  const auto render = Render::start(pool, Priority::normal, scene, plan_view(*scene, view));
+  while (!render->wait_ms(1e9)) continue;
+  REQUIRE(render->progress().state == RenderState::done, told + render->progress().error);
+  REQUIRE(render->report().points.back().nonfinite == 0, told);
+  for (const float value : render->image()->rgb) REQUIRE(std::isfinite(value) && value >= 0.0f, told);
+  return render->image()->rgb;
+}
+
+// The methods on triangles bear any scene too, and two of them show the same.
+void check_methods(const std::shared_ptr<const CompiledScene>& scene, View view, TilePool& pool,
+                   const std::string& told) {
+  view.render.chord_error_px = std::max(view.render.chord_error_px, 0.25);
+  view.render.algorithm = Algorithm::zbuffer;
+  const std::vector<float> zbuffer = draw(scene, view, pool, told);
+  view.render.algorithm = Algorithm::warnock;
+  REQUIRE(draw(scene, view, pool, told) == zbuffer, told);
+  view.render.algorithm = Algorithm::roberts;
+  draw(scene, view, pool, told);
+}
+
 void check_view(std::shared_ptr<const CompiledScene> scene, View view, TilePool& pool, std::string_view text) {
   const std::string told(text);
   view.image.width = 6, view.image.height = 4;
@@ -66,11 +88,8 @@ void check_view(std::shared_ptr<const CompiledScene> scene, View view, TilePool&
   REQUIRE(is_finite(plan.camera.position) && is_finite(plan.camera.target), told);
   REQUIRE(!plan_json(plan.plan).empty(), told);
 
-  const auto render = Render::start(pool, Priority::normal, scene, plan);
-  while (!render->wait_ms(1e9)) continue;
-  REQUIRE(render->progress().state == RenderState::done, told + render->progress().error);
-  REQUIRE(render->report().points.back().nonfinite == 0, told);
-  for (const float value : render->image()->rgb) REQUIRE(std::isfinite(value) && value >= 0.0f, told);
+  draw(scene, view, pool, told);
+  check_methods(scene, view, pool, told);
   REQUIRE(explain_pixel_json(scene, plan, pool, 3, 2, 0), told);
 }
 
