@@ -88,6 +88,7 @@ Reply submit_order(Services& services, const Request& request, const Claim& clai
   if (!wish) return ::tl::unexpected(wish.error());
   render.format = wish->image.value_or(render.format);
   render.priority = ordered.priority.value_or(wish->image ? Priority::normal : Priority::batch);
+  render.becomes_job = !wish->image;
   const ImageFormat format = render.format;
   auto lease = services.queue.submit(std::move(render));
   if (!lease) return refused(services, lease.error());

@@ -56,6 +56,7 @@ struct RenderRequest {
   std::vector<SceneWarning> warnings = {};  // of the scene and of the view
   double parse_ms = 0.0;
   std::optional<RefineSource> refines = {};
+  bool becomes_job = false;  // for certain: it may end before the job is made, and its film is kept all the same
 };
 
 // All values of a view as text, exact to the bit: two views with the same text give the same image.

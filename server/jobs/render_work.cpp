@@ -12,7 +12,7 @@ RenderWork::Picture picture_of(const Render& render) { return {render.image(), r
 }  // namespace
 
 RenderWork::RenderWork(RenderRequest request, std::string key, int64_t created_ms)
-    : request_(std::move(request)), key_(std::move(key)) {
+    : request_(std::move(request)), key_(std::move(key)), keeps_film_(request_.becomes_job) {
   status_.created_ms = created_ms;
   status_.timings.parse_ms = request_.parse_ms;
 }

@@ -58,7 +58,7 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   int64_t result_bytes() const;
 
   // Says that a job was made of it: from its end to drop_film() others may go on from it. The film is kept if this was
-  // said before the end.
+  // said before the end, or with the request.
   void keep_film();
   bool is_refinable() const;
   // Null: there is none, and who goes on renders the passes of the report again.
@@ -104,7 +104,7 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   Picture picture_;
   std::string lines_svg_;   // beside picture_
   std::string image_hash_;  // after the end
-  bool keeps_film_ = false;
+  bool keeps_film_;
   std::shared_ptr<const ExposedFilm> film_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;
   int64_t encoded_bytes_ = 0;
