@@ -28,6 +28,7 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
   app.add_option("--height", view.height, "Height of the image, in pixels");
   app.add_option("--algorithm", view.algorithm, "Hidden-surface method")->check(CLI::IsMember(names_of(kAlgorithms)));
   app.add_option("--shading", view.shading, "Shading rule")->check(CLI::IsMember(names_of(kShadings)));
+  app.add_flag("--hidden-lines", view.hidden_lines, "Line drawings: hidden lines too, dashed");
   app.add_option("--samples", view.samples, "Stop at that many samples a pixel; stop rules replace the scene's own");
   app.add_option("--rmse", view.rmse, "Stop once the error is below: root mean square of the display's range 0 to 1");
   app.add_option("--time-ms", view.time_ms, "Stop at that time, in milliseconds");
@@ -43,7 +44,9 @@ void add_scene_option(CLI::App& app, std::string& path) {
 }
 
 CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
-  CLI::Option* output = app.add_option("-o,--output", arguments.output, "The image: .png, .jpg or .exr (linear, half)");
+  CLI::Option* output = app.add_option(
+      "-o,--output", arguments.output,
+      "The image: .png, .jpg, .exr (linear, half) or, of the lines that --algorithm roberts draws, .svg");
   add_view_options(app, arguments.view);
   app.add_option("--threads", arguments.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
   app.add_option("--tile", arguments.tile_px,
@@ -77,6 +80,7 @@ void add_render(CLI::App& app, Run& run) {
       "  tilelight render scene.json -o scene.png\n"
       "  tilelight render scene.json -o big.exr --width 3840 --height 2160 --samples 64 --report report.json\n"
       "  tilelight render scene.json -o scene.png --rmse 0.004 --error-map error.png\n"
+      "  tilelight render scene.json --algorithm roberts --hidden-lines -o lines.svg\n"
       "  tilelight render scene.json --pixel 640,360\n"
       "  generate-scene | tilelight render - -o out.jpg");
   command->callback([options, output, pixel, &run] {

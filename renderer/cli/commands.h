@@ -12,9 +12,9 @@
 namespace tilelight::cli {
 
 struct RenderArguments {
-  std::string output;     // a path ending in .png, .jpg or .exr; empty only with a pixel
+  std::string output;     // a path ending in .png, .jpg, .exr or .svg; empty only with a pixel
   std::string report;     // a path, "-", or empty
-  std::string error_map;  // a path like output, or empty
+  std::string error_map;  // a path ending in .png, .jpg or .exr, or empty
   ViewOptions view;
   int threads = 0;  // 0: one a core
   int tile_px = 0;  // 0: chosen by the renderer

@@ -18,11 +18,19 @@ ExitCode check_arguments(const RenderArguments& arguments) {
   if (!arguments.pixel.empty()) return kOk;
   for (const std::string& path : {arguments.output, arguments.error_map})
     if (!path.empty() && !image_format_from_extension(path))
-      return complain(kBadInput, path + ": the ending names the format: .png, .jpg or .exr");
+      return complain(kBadInput, path + ": the ending names the format: .png, .jpg, .exr or, of line drawings, .svg");
+  if (image_format_from_extension(arguments.error_map) == ImageFormat::svg)
+    return complain(kBadInput, arguments.error_map + ": the error by pixel has no lines; use .png, .jpg or .exr");
   for (const std::string& path : {arguments.output, arguments.report, arguments.error_map})
     if (auto writable = check_can_write(path); !path.empty() && !writable)
       return complain(kFailed, writable.error().detail);
   return kOk;
+}
+
+// What can be refused only once the scene has been read.
+ExitCode check_output(const RenderArguments& arguments, const View& view) {
+  if (image_format_from_extension(arguments.output) != ImageFormat::svg || draws_lines(view)) return kOk;
+  return complain(kBadInput, arguments.output + ": an SVG holds lines, which --algorithm roberts alone draws");
 }
 
 ExitCode explain(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool,
@@ -42,10 +50,15 @@ RenderProgress wait_for_end(Render& render, ProgressLine& line) {
   return render.progress();
 }
 
+Result<std::string> encode_result(const Render& render, double exposure_stops, ImageFormat format) {
+  if (format == ImageFormat::svg) return render.lines_svg();
+  return encode_image(*render.image(), exposure_stops, format);
+}
+
 ExitCode write_results(const Render& render, const ViewPlan& plan, const std::string& scene_id,
                        const RenderArguments& arguments) {
   const auto format = image_format_from_extension(arguments.output);
-  const auto bytes = encode_image(*render.image(), plan.view.image.exposure, *format);
+  const auto bytes = encode_result(render, plan.view.image.exposure, *format);
   if (!bytes) return complain(kFailed, bytes.error().detail);
   if (is_interrupted()) return kInterrupted;
   if (auto written = write_output(arguments.output, *bytes); !written) return complain(kFailed, written.error().detail);
@@ -84,6 +97,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   auto parsed = parse_with_options(source, arguments.view);
   if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
   const auto& [scene, view] = std::tie(std::get<ParsedScene>(parsed).scene, std::get<ParsedScene>(parsed).view);
+  if (const ExitCode code = check_output(arguments, view); code != kOk) return code;
 
   TilePool pool(arguments.threads);
   const auto compiled = compile_scene(scene, pool);

@@ -23,6 +23,7 @@ std::string view_json(const ViewOptions& options) {
   if (options.height) add(image, "height", number(*options.height));
   if (options.algorithm) add(render, "algorithm", "\"" + *options.algorithm + "\"");
   if (options.shading) add(render, "shading", "\"" + *options.shading + "\"");
+  if (options.hidden_lines) add(render, "hidden_lines", "true");
   if (options.samples || options.rmse || options.time_ms) {
     add(render, "samples", options.samples ? number(*options.samples) : "null");
     add(render, "rmse", options.rmse ? number(*options.rmse) : "null");

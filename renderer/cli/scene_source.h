@@ -17,6 +17,7 @@ struct ViewOptions {
   std::optional<int> width, height, samples;
   std::optional<double> rmse, time_ms;
   std::optional<std::string> algorithm, shading;  // words of the scene language
+  bool hidden_lines = false;                      // false: as the scene says
 };
 
 struct SceneText {

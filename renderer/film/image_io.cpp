@@ -19,15 +19,20 @@ namespace {
 
 struct FormatRow {
   ImageFormat format;
-  const char* plugin;  // OpenImageIO's name
+  const char* plugin;  // OpenImageIO's name; svg: none
   std::string_view media_type;
   std::array<std::string_view, 2> extensions;
 };
-constexpr std::array<FormatRow, 3> kFormats = {{{ImageFormat::png, "png", "image/png", {"png", ""}},
+constexpr std::array<FormatRow, 4> kFormats = {{{ImageFormat::png, "png", "image/png", {"png", ""}},
                                                 {ImageFormat::jpeg, "jpeg", "image/jpeg", {"jpg", "jpeg"}},
-                                                {ImageFormat::exr, "openexr", "image/x-exr", {"exr", ""}}}};
+                                                {ImageFormat::exr, "openexr", "image/x-exr", {"exr", ""}},
+                                                {ImageFormat::svg, nullptr, "image/svg+xml", {"svg", ""}}}};
 
 const FormatRow& row_of(ImageFormat format) { return kFormats[static_cast<size_t>(format)]; }
+
+::tl::unexpected<Error> no_pixels() {
+  return fail("no_pixels", "an SVG holds lines and an image pixels: neither can be made of the other");
+}
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -80,6 +85,7 @@ struct OpenInput {
 };
 
 Result<OpenInput> open_input(std::string_view bytes, ImageFormat format, int64_t max_pixels) {
+  if (format == ImageFormat::svg) return no_pixels();
   use_calling_thread_only();
   const FormatRow& row = row_of(format);
   OpenInput open;
@@ -134,6 +140,7 @@ std::optional<ImageFormat> image_format_from_media_type(std::string_view media_t
 std::string_view media_type(ImageFormat format) { return row_of(format).media_type; }
 
 Result<std::string> encode_image(const Image& image, double exposure_stops, ImageFormat format) {
+  if (format == ImageFormat::svg) return no_pixels();
   const StandardFloats floats;
   use_calling_thread_only();
   const FormatRow& row = row_of(format);

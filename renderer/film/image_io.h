@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, JPEG and OpenEXR by OpenImageIO, in memory. A target of its own (tl_image_io): loading the library costs 0.3 s.
-// Any thread.
+// PNG, JPEG and OpenEXR by OpenImageIO, in memory, and the names of the formats of pictures. A target of its own
+// (tl_image_io): loading the library costs 0.3 s. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,9 @@
 
 namespace tilelight {
 
-enum class ImageFormat { png, jpeg, exr };
+// svg is of line drawings: their render writes it (Render::lines_svg). It is refused wherever pixels are meant, with
+// the error no_pixels.
+enum class ImageFormat { png, jpeg, exr, svg };
 
 std::optional<ImageFormat> image_format_from_extension(std::string_view path);         // "a.png" -> png
 std::optional<ImageFormat> image_format_from_media_type(std::string_view media_type);  // "image/png" -> png

@@ -24,6 +24,9 @@ int64_t render_memory_bytes(const View& view);
 // plan_view for the instruction set in use.
 ViewPlan plan_view(const CompiledScene& scene, const View& view);
 
+// Whether the picture of the view is a line drawing, so that its render has lines_svg().
+inline bool draws_lines(const View& view) { return view.render.algorithm == Algorithm::roberts; }
+
 enum class RenderState { running, done, cancelled, failed };
 
 struct RayCounts {

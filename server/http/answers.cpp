@@ -111,7 +111,10 @@ std::string render_info(double spp, std::string_view stop, const RenderReport& r
 }
 
 Response shared_image(const EncodedPtr& image, ImageFormat format) {
-  return {200, {}, std::string(media_type(format)), "", SharedBytes(image, &image->bytes)};
+  Response response{200, {}, std::string(media_type(format)), "", SharedBytes(image, &image->bytes)};
+  // Browsers open an SVG as a document: ours needs nothing beside itself and may run nothing.
+  if (format == ImageFormat::svg) response.with("Content-Security-Policy", "default-src 'none'; sandbox");
+  return response;
 }
 
 Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFormat format) {

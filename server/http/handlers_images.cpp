@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "renderer/base/hash.h"
 #include "server/http/handlers.h"
 #include "server/http/render_body.h"
@@ -6,24 +8,39 @@
 namespace tilelight::server {
 namespace {
 
-// The format in which to serve an image whose own format is given.
-::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, ImageFormat own) {
-  std::vector<std::string_view> offers = {media_type(own)};
-  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
-    if (format != own) offers.push_back(media_type(format));
-  }
+// The format in which to serve an image, of those that there are of it; its own where the client has no favourite.
+::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, std::vector<ImageFormat> formats,
+                                                      ImageFormat own) {
+  std::stable_partition(formats.begin(), formats.end(), [own](ImageFormat format) { return format == own; });
+  std::vector<std::string_view> offers;
+  for (const ImageFormat format : formats) offers.push_back(media_type(format));
   const auto type = best_offer(request, offers);
-  if (!type) return problem(406, "not_acceptable", "an image can be had as image/png, image/jpeg or image/x-exr");
+  if (!type) {
+    return problem(406, "not_acceptable",
+                   "an image can be had as image/png, image/jpeg or image/x-exr, one by the algorithm roberts (but not "
+                   "its error) also as image/svg+xml");
+  }
   return *image_format_from_media_type(*type);
 }
 
-Reply partial_image(Services& services, const RenderWork& work, Layer layer, ImageFormat format) {
+// The whole passes so far. Errors: not_ready, or the encoder's.
+Result<EncodedPtr> encode_so_far(Services& services, const RenderWork& work, Layer layer, ImageFormat format) {
+  const Error not_ready{
+      "not_ready", "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show"};
+  if (format == ImageFormat::svg) {
+    const auto lines = [&work] { return work.lines_svg(); };
+    std::string svg = services.pool.submit(Priority::interactive, lines).get();
+    if (svg.empty()) return ::tl::unexpected(not_ready);
+    return tagged(std::move(svg));
+  }
   const auto [image, error_bounds] = work.picture();
-  if (!image)
-    return problem(409, "not_ready",
-                   "the render is " + std::string(job_state_name(work.state())) + " and has no whole pass to show");
-  const double exposure = work.request().view.image.exposure;
-  auto encoded = encode_layer(services, layer, *image, *error_bounds, exposure, format);
+  if (!image) return ::tl::unexpected(not_ready);
+  return encode_layer(services, layer, *image, *error_bounds, work.request().view.image.exposure, format);
+}
+
+Reply partial_image(Services& services, const RenderWork& work, Layer layer, ImageFormat format) {
+  const auto encoded = encode_so_far(services, work, layer, format);
+  if (!encoded && encoded.error().code == "not_ready") return problem(409, "not_ready", encoded.error().detail);
   if (!encoded) return problem(500, "internal", "the image could not be encoded");
   return image_response(work, *encoded, format).with("Cache-Control", "no-store");
 }
@@ -49,14 +66,15 @@ std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageForma
 Reply get_render_image(Services& services, const Request& request) {
   const auto record = services.jobs.find(request.args[0]);
   if (!record) return problem(404, "no_such_render", "no render with this id is known");
-  const auto format = image_format_for(request, record->format);
-  if (!format) return ::tl::unexpected(format.error());
-  const WorkPtr work = services.jobs.work(request.args[0]);
-  if (!work) return problem(410, "expired", "the image is no longer kept; submit the render again");
-  const bool wants_partial = request.param("partial") == "1";
-  const JobState state = record->status.state;
   const auto layer = read_layer(request);
   if (!layer) return ::tl::unexpected(layer.error());
+  const WorkPtr work = services.jobs.work(request.args[0]);
+  if (!work) return problem(410, "expired", "the image is no longer kept; submit the render again");
+  const bool has_lines = *layer == Layer::color && draws_lines(work->request().view);
+  const auto format = image_format_for(request, image_formats(has_lines), record->format);
+  if (!format) return ::tl::unexpected(format.error());
+  const bool wants_partial = request.param("partial") == "1";
+  const JobState state = record->status.state;
   if (state != JobState::done) {
     if (wants_partial) return partial_image(services, *work, *layer, *format);
     const std::string name(job_state_name(state));
@@ -86,7 +104,7 @@ Reply get_scene_image(Services& services, const Request& request) {
                    "this scene stops by time, so its picture has no name to be cached under; ask POST "
                    "/v1/renders for it");
   }
-  const auto format = image_format_for(request, ImageFormat::png);
+  const auto format = image_format_for(request, image_formats(*view), ImageFormat::png);
   if (!format) return ::tl::unexpected(format.error());
   const std::string etag = scene_image_etag(scene, *view, *format);
   const auto label = [&](Response& response) {

@@ -33,23 +33,21 @@ namespace {
 }  // namespace
 
 Reply post_render(Services& services, const Request& request) {
-  return accept_order(services, request, sha256_hex(request.body),
-                      [&](const Wish& wish) -> ::tl::expected<RenderRequest, Problem> {
-                        auto body = read_render_body(services, request.body, {"format", "priority"});
-                        if (!body) return ::tl::unexpected(body.error());
-                        RenderRequest order{body->scene, std::move(body->view)};
-                        order.format = format_of(wish, body->format.value_or(ImageFormat::png));
-                        order.priority = priority_of(wish, body->priority);
-                        order.warnings = std::move(body->warnings);
-                        order.parse_ms = body->parse_ms;
-                        return order;
-                      });
+  return accept_order(services, request, sha256_hex(request.body), [&]() -> ::tl::expected<Ordered, Problem> {
+    auto body = read_render_body(services, request.body, {"format", "priority"});
+    if (!body) return ::tl::unexpected(body.error());
+    RenderRequest render{body->scene, std::move(body->view)};
+    render.format = body->format.value_or(ImageFormat::png);
+    render.warnings = std::move(body->warnings);
+    render.parse_ms = body->parse_ms;
+    return Ordered{std::move(render), body->priority};
+  });
 }
 
 Reply post_refine(Services& services, const Request& request) {
   const std::string& id = request.args[0];
   return accept_order(services, request, sha256_hex("refine;" + id + ";" + std::string(request.body)),
-                      [&](const Wish& wish) -> ::tl::expected<RenderRequest, Problem> {
+                      [&]() -> ::tl::expected<Ordered, Problem> {
                         const auto record = services.jobs.find(id);
                         if (!record) return no_such_render();
                         const WorkPtr work = services.jobs.work(id);
@@ -58,13 +56,12 @@ Reply post_refine(Services& services, const Request& request) {
                         auto body = read_refine_body(request.body, work->request().view, record->status.report,
                                                      services.config.limits);
                         if (!body) return ::tl::unexpected(body.error());
-                        RenderRequest order{work->request().scene, std::move(body->view)};
-                        order.format = format_of(wish, body->format.value_or(record->format));
-                        order.priority = priority_of(wish, body->priority);
-                        order.warnings = work->request().warnings;
-                        order.parse_ms = body->parse_ms;
-                        order.refines = RefineSource{id, record->status.report, work->film()};
-                        return order;
+                        RenderRequest render{work->request().scene, std::move(body->view)};
+                        render.format = body->format.value_or(record->format);
+                        render.warnings = work->request().warnings;
+                        render.parse_ms = body->parse_ms;
+                        render.refines = RefineSource{id, record->status.report, work->film()};
+                        return Ordered{std::move(render), body->priority};
                       });
 }
 

@@ -110,11 +110,11 @@ std::optional<std::string_view> best_offer(const Request& request, const std::ve
   return best;
 }
 
-std::optional<ImageFormat> asked_image_format(const Request& request) {
+std::optional<ImageFormat> asked_image_format(const Request& request, const std::vector<ImageFormat>& formats) {
   const auto ranges = accepted(request);
   std::optional<ImageFormat> best;
   double best_quality = 0.0;
-  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+  for (const ImageFormat format : formats) {
     const double quality = quality_of(ranges, media_type(format), 2);
     if (quality > best_quality) best_quality = quality, best = format;
   }

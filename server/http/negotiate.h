@@ -15,9 +15,9 @@ namespace tilelight::server {
 // Without an Accept header everything is accepted.
 std::optional<std::string_view> best_offer(const Request& request, const std::vector<std::string_view>& offers);
 
-// The image format that the client asked for by name ("image/png", "image/*"), and not by "*/*" or by silence; nothing
-// also where it likes application/json better.
-std::optional<ImageFormat> asked_image_format(const Request& request);
+// Of the formats the one that the client asked for by name ("image/png", "image/*"), and not by "*/*" or by silence;
+// nothing also where it likes application/json better.
+std::optional<ImageFormat> asked_image_format(const Request& request, const std::vector<ImageFormat>& formats);
 
 struct Preferences {
   std::optional<double> wait_s;  // wait=N

@@ -4,12 +4,20 @@
 namespace tilelight::server {
 namespace {
 
-::tl::expected<Wish, Problem> read_wish(const Request& request) {
+// What the client wants for an answer.
+struct Wish {
+  std::optional<ImageFormat> image;  // wait and answer with it; nothing: answer with the job
+};
+
+// formats: those that there are of the picture.
+::tl::expected<Wish, Problem> read_wish(const Request& request, const std::vector<ImageFormat>& formats) {
   if (read_preferences(request).respond_async) return Wish{};
-  const auto image = asked_image_format(request);
+  const auto image = asked_image_format(request, formats);
   if (!image && !best_offer(request, {"application/json"})) {
-    return problem(406, "not_acceptable",
-                   "a render can be answered as image/png, image/jpeg, image/x-exr or, as a job, application/json");
+    return problem(
+        406, "not_acceptable",
+        "a render can be answered as image/png, image/jpeg or image/x-exr, one by the algorithm roberts also "
+        "as image/svg+xml or, as a job, as application/json");
   }
   return Wish{image};
 }
@@ -37,36 +45,36 @@ namespace {
   return key;
 }
 
+// Of the request's idempotency key, if it has one.
+using Claim = std::optional<IdempotencyKeys::Claim>;
+
 // Answers a retry with the job that its first try led to, if it is still there.
 ::tl::expected<std::optional<Response>, Problem> answer_retry(Services& services, const Request& request,
-                                                              const IdempotencyKeys::Claim& claim, const Wish& wish) {
+                                                              const IdempotencyKeys::Claim& claim) {
   if (claim.is_other_body) {
     return problem(422, "idempotency_key_reused", "this Idempotency-Key came with another body before");
   }
   const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
   if (!record) return std::optional<Response>();
-  const WorkPtr work = services.jobs.work(record->id);
-  if (wish.image && work) {
-    auto image = wait_for_image(services, request, *work, *wish.image);
-    if (!image || *image) return image;
+  if (const WorkPtr work = services.jobs.work(record->id)) {
+    const auto wish = read_wish(request, image_formats(work->request().view));
+    if (!wish) return ::tl::unexpected(wish.error());
+    if (wish->image) {
+      auto image = wait_for_image(services, request, *work, *wish->image);
+      if (!image || *image) return image;
+    }
   }
   const auto now = services.jobs.find(record->id);
   if (!now) return std::optional<Response>();  // deleted while this waited
   return std::optional<Response>(accepted_response(*now, request));
 }
 
-// What a POST of a render wants, read from its headers. The claim: of the request's idempotency key, if it has one.
-struct Order {
-  Wish wish;
-  std::optional<IdempotencyKeys::Claim> claim;
-};
-
 // The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
-Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& request, const Order& order,
+Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& request, const Claim& claim,
                            ImageFormat format) {
   auto record = services.jobs.keep(std::move(lease), request.client, format);
-  if (!record || !order.claim) return record;
-  const std::string winner = services.keys.bind(*order.claim, record->id);
+  if (!record || !claim) return record;
+  const std::string winner = services.keys.bind(*claim, record->id);
   if (winner == record->id) return record;
   auto first = services.jobs.find(winner);
   if (!first) return record;  // deleted since
@@ -74,16 +82,22 @@ Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& r
   return std::move(*first);
 }
 
-Reply submit_order(Services& services, const Request& request, const Order& order, RenderRequest&& render) {
+Reply submit_order(Services& services, const Request& request, const Claim& claim, Ordered&& ordered) {
+  RenderRequest& render = ordered.render;
+  const auto wish = read_wish(request, image_formats(render.view));
+  if (!wish) return ::tl::unexpected(wish.error());
+  render.format = wish->image.value_or(render.format);
+  render.priority = ordered.priority.value_or(wish->image ? Priority::normal : Priority::batch);
+  render.becomes_job = !wish->image;
   const ImageFormat format = render.format;
   auto lease = services.queue.submit(std::move(render));
   if (!lease) return refused(services, lease.error());
-  if (order.wish.image) {
+  if (wish->image) {
     auto image = wait_for_image(services, request, *lease->work(), format);
     if (!image) return ::tl::unexpected(image.error());
     if (*image) return std::move(**image);
   }
-  const auto record = keep_job(services, std::move(*lease), request, order, format);
+  const auto record = keep_job(services, std::move(*lease), request, claim, format);
   if (!record) return refused(services, record.error());
   return accepted_response(*record, request);
 }
@@ -91,22 +105,22 @@ Reply submit_order(Services& services, const Request& request, const Order& orde
 }  // namespace
 
 Reply accept_order(Services& services, const Request& request, const std::string& content_hash,
-                   const std::function<::tl::expected<RenderRequest, Problem>(const Wish&)>& prepare) {
-  const auto wish = read_wish(request);
-  if (!wish) return ::tl::unexpected(wish.error());
+                   const std::function<::tl::expected<Ordered, Problem>()>& prepare) {
+  // What nobody could answer is refused before the body is read.
+  if (const auto wish = read_wish(request, image_formats(true)); !wish) return ::tl::unexpected(wish.error());
   const auto key = read_idempotency_key(request);
   if (!key) return ::tl::unexpected(key.error());
-  Order order{*wish, std::nullopt};
+  Claim claim;
   if (!key->empty()) {
-    order.claim = services.keys.claim(request.client, *key, content_hash);
-    auto retried = answer_retry(services, request, *order.claim, *wish);
+    claim = services.keys.claim(request.client, *key, content_hash);
+    auto retried = answer_retry(services, request, *claim);
     if (!retried) return ::tl::unexpected(retried.error());
     if (*retried) return std::move(**retried);
   }
-  auto render = prepare(*wish);
-  Reply reply = render ? submit_order(services, request, order, std::move(*render))
-                       : Reply(::tl::unexpected(std::move(render.error())));
-  if (!reply && order.claim) services.keys.release(*order.claim);
+  auto ordered = prepare();
+  Reply reply = ordered ? submit_order(services, request, claim, std::move(*ordered))
+                        : Reply(::tl::unexpected(std::move(ordered.error())));
+  if (!reply && claim) services.keys.release(*claim);
   return reply;
 }
 

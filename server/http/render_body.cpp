@@ -67,6 +67,27 @@ std::optional<T> read_word(const std::vector<JsonMember>& members, std::string_v
   return value;
 }
 
+std::vector<std::string> names_of(const std::vector<ImageFormat>& formats) {
+  std::vector<std::string> names;
+  for (const ImageFormat format : formats) names.emplace_back(image_format_name(format));
+  return names;
+}
+
+std::optional<ImageFormat> read_format(const std::vector<JsonMember>& members, MemberErrors& errors) {
+  return read_word<ImageFormat>(members, "format", find_image_format, names_of(image_formats(true)), errors);
+}
+
+// Whether there is that format of the view's picture.
+void check_format(std::optional<ImageFormat> format, const View& view, MemberErrors& errors) {
+  const std::vector<ImageFormat> formats = image_formats(view);
+  if (!format || std::find(formats.begin(), formats.end(), *format) != formats.end()) return;
+  const auto names = names_of(formats);
+  errors.add("format", "no_lines",
+             "found \"" + std::string(image_format_name(*format)) +
+                 "\", which is of lines, and this picture has none; allowed: " + join(names),
+             names, "lines are drawn by the algorithm roberts");
+}
+
 std::optional<Priority> find_batch_or_normal(std::string_view name) {
   if (name == "normal") return Priority::normal;
   if (name == "batch") return Priority::batch;
@@ -127,7 +148,7 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
   for (const std::string_view wish : wishes) known.emplace_back(wish);
   MemberErrors errors;
   errors.check_keys(*members, known);
-  out.format = read_word<ImageFormat>(*members, "format", find_image_format, {"png", "jpeg", "exr"}, errors);
+  out.format = read_format(*members, errors);
   out.priority = read_word<Priority>(*members, "priority", find_batch_or_normal, {"normal", "batch"}, errors);
   if (!errors.empty()) return errors.problem();
   auto scene = read_scene_member(services, body, *scene_member);
@@ -138,6 +159,8 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
                          out.scene->parsed.view, limits);
   if (!view) return scene_problem(view.error());
   out.view = std::move(*view);
+  check_format(out.format, out.view, errors);
+  if (!errors.empty()) return errors.problem();
   return out;
 }
 
@@ -229,7 +252,7 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   MemberErrors errors;
   errors.check_keys(*members, {"samples", "rmse", "time_ms", "format", "priority"});
   RefineBody out;
-  out.format = read_word<ImageFormat>(*members, "format", find_image_format, {"png", "jpeg", "exr"}, errors);
+  out.format = read_format(*members, errors);
   out.priority = read_word<Priority>(*members, "priority", find_batch_or_normal, {"normal", "batch"}, errors);
   const bool has_rule = std::any_of(std::begin(kRules), std::end(kRules),
                                     [&](std::string_view rule) { return find_member(*members, rule) != nullptr; });
@@ -247,6 +270,7 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   render.time_ms = rules->render.time_ms;
   render.passes.clear();
   add_if_met(render, report, limits, errors);
+  check_format(out.format, source, errors);
   if (!errors.empty()) return errors.problem();
   out.parse_ms = ms_since(start);
   return out;

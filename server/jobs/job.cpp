@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kStateNames[] = {"queued", "running", "done", "failed", "cancelled"};
 constexpr std::string_view kPriorityNames[] = {"interactive", "normal", "batch"};
 constexpr std::pair<ImageFormat, std::string_view> kFormatNames[] = {
-    {ImageFormat::png, "png"}, {ImageFormat::jpeg, "jpeg"}, {ImageFormat::exr, "exr"}};
+    {ImageFormat::png, "png"}, {ImageFormat::jpeg, "jpeg"}, {ImageFormat::exr, "exr"}, {ImageFormat::svg, "svg"}};
 
 // Hexadecimal floating point: exact, whatever the locale's rounding.
 void put(std::string& out, double value) {
@@ -48,6 +48,12 @@ std::optional<ImageFormat> find_image_format(std::string_view name) {
     if (known == name) return format;
   }
   return std::nullopt;
+}
+
+std::vector<ImageFormat> image_formats(bool with_lines) {
+  std::vector<ImageFormat> formats = {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr};
+  if (with_lines) formats.push_back(ImageFormat::svg);
+  return formats;
 }
 
 std::string view_fingerprint(const View& view) {

@@ -33,8 +33,11 @@ std::optional<JobState> find_job_state(std::string_view name);
 inline bool is_final(JobState state) { return state != JobState::queued && state != JobState::running; }
 
 std::string_view priority_name(Priority priority);
-std::string_view image_format_name(ImageFormat format);  // "png", "jpeg", "exr"
+std::string_view image_format_name(ImageFormat format);  // "png", "jpeg", "exr", "svg"
 std::optional<ImageFormat> find_image_format(std::string_view name);
+// In which a picture can be had, the preferred one first. with_lines: svg too, for line drawings.
+std::vector<ImageFormat> image_formats(bool with_lines);
+inline std::vector<ImageFormat> image_formats(const View& view) { return image_formats(draws_lines(view)); }
 
 // The done render that another one goes on from.
 struct RefineSource {
@@ -53,6 +56,7 @@ struct RenderRequest {
   std::vector<SceneWarning> warnings = {};  // of the scene and of the view
   double parse_ms = 0.0;
   std::optional<RefineSource> refines = {};
+  bool becomes_job = false;  // for certain: it may end before the job is made, and its film is kept all the same
 };
 
 // All values of a view as text, exact to the bit: two views with the same text give the same image.

@@ -12,7 +12,7 @@ RenderWork::Picture picture_of(const Render& render) { return {render.image(), r
 }  // namespace
 
 RenderWork::RenderWork(RenderRequest request, std::string key, int64_t created_ms)
-    : request_(std::move(request)), key_(std::move(key)) {
+    : request_(std::move(request)), key_(std::move(key)), keeps_film_(request_.becomes_job) {
   status_.created_ms = created_ms;
   status_.timings.parse_ms = request_.parse_ms;
 }
@@ -52,6 +52,14 @@ RenderWork::Picture RenderWork::picture() const {
   return picture_of(*render);
 }
 
+std::string RenderWork::lines_svg() const {
+  std::unique_lock lock(mutex_);
+  if (picture_.image || !render_) return lines_svg_;
+  const auto render = render_;
+  lock.unlock();
+  return render->lines_svg();
+}
+
 std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> RenderWork::claim(
     ImageFormat format) {
   const std::lock_guard lock(mutex_);
@@ -67,10 +75,12 @@ std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>
 Result<EncodedPtr> RenderWork::encode(ImageFormat format) {
   std::unique_lock lock(mutex_);
   const auto image = picture_.image;
+  std::string lines = format == ImageFormat::svg ? lines_svg_ : "";
   lock.unlock();
   if (!image) return fail("expired", "the linear image is no longer kept; only formats encoded before are");
   const auto start = Steady::now();
-  auto encoded = encode_tagged(*image, request_.view.image.exposure, format);
+  // Where there are no lines the encoder says so.
+  auto encoded = lines.empty() ? encode_tagged(*image, request_.view.image.exposure, format) : tagged(std::move(lines));
   lock.lock();
   status_.timings.encode_ms += ms_since(start);
   if (encoded) encoded_bytes_ += static_cast<int64_t>((*encoded)->bytes.size());
@@ -111,13 +121,15 @@ std::string RenderWork::final_image_hash() {
 void RenderWork::drop_image() {
   const std::lock_guard lock(mutex_);
   picture_ = {};
+  std::string().swap(lines_svg_);  // an assignment would keep the memory
 }
 
 int64_t RenderWork::result_bytes() const {
   const std::lock_guard lock(mutex_);
   const auto picture_bytes =
       picture_.image ? static_cast<int64_t>(picture_.image->rgb.size() + picture_.error_bounds->size()) * 4 : 0;
-  return picture_bytes + encoded_bytes_ + 2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
+  return picture_bytes + static_cast<int64_t>(lines_svg_.size()) + encoded_bytes_ +
+         2 * static_cast<int64_t>(request_.scene->text.size()) + 4096;
 }
 
 void RenderWork::keep_film() {
@@ -199,12 +211,14 @@ void RenderWork::take_result() {
   const auto render = this->render();
   if (!render) return;
   auto picture = picture_of(*render);
+  auto lines = render->lines_svg();
   auto progress = render->progress();
   auto report = render->report();
   auto film = render->exposed_film();
   const std::lock_guard lock(mutex_);
   if (keeps_film_) film_ = std::move(film);
   picture_ = std::move(picture);
+  lines_svg_ = std::move(lines);
   status_.timings.render_ms = progress.elapsed_ms;
   status_.progress = std::move(progress);
   status_.report = std::move(report);
@@ -213,6 +227,7 @@ void RenderWork::take_result() {
 
 void RenderWork::set_ended(JobState state, std::string error, int64_t finished_ms) {
   Picture dropped;  // before the lock: memory is given back after it
+  std::string dropped_lines;
   std::shared_ptr<const ExposedFilm> dropped_film;
   {
     const std::lock_guard lock(mutex_);
@@ -220,7 +235,8 @@ void RenderWork::set_ended(JobState state, std::string error, int64_t finished_m
     status_.error = std::move(error);
     status_.finished_ms = finished_ms;
     status_.progress.eta_ms = state == JobState::done ? 0.0 : -1.0;
-    if (state != JobState::done) std::swap(dropped, picture_), std::swap(dropped_film, film_);
+    if (state != JobState::done)
+      std::swap(dropped, picture_), std::swap(dropped_lines, lines_svg_), std::swap(dropped_film, film_);
   }
   bump();
   notify_watchers();
@@ -231,13 +247,17 @@ void RenderWork::request_cancel() {
   if (const auto render = this->render()) render->cancel();
 }
 
+EncodedPtr tagged(std::string bytes) {
+  auto encoded = std::make_shared<EncodedImage>();
+  encoded->etag = "\"" + sha256_hex(bytes).substr(0, 32) + "\"";
+  encoded->bytes = std::move(bytes);
+  return encoded;
+}
+
 Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format) {
   auto bytes = encode_image(image, exposure_stops, format);
   if (!bytes) return ::tl::unexpected(bytes.error());
-  auto encoded = std::make_shared<EncodedImage>();
-  encoded->etag = "\"" + sha256_hex(*bytes).substr(0, 32) + "\"";
-  encoded->bytes = std::move(*bytes);
-  return EncodedPtr(std::move(encoded));
+  return tagged(std::move(*bytes));
 }
 
 }  // namespace tilelight::server

@@ -41,6 +41,8 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
     std::shared_ptr<const std::vector<float>> error_bounds;
   };
   Picture picture() const;
+  // The lines of that picture as an SVG document. Empty where there is no picture, and by methods that draw none.
+  std::string lines_svg() const;
 
   // The image of an ended render in a format, encoded once on the pool. REQUIRES: not a pool thread.
   // Errors: expired (the linear image was dropped), or the encoder's.
@@ -51,12 +53,12 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   // image_hash() of the final image, worked out once; empty before, and where nobody asked before drop_image().
   std::string final_image_hash();
 
-  // Forgets the linear image; formats encoded so far stay.
+  // Forgets the linear image and the lines; formats encoded so far stay.
   void drop_image();
   int64_t result_bytes() const;
 
   // Says that a job was made of it: from its end to drop_film() others may go on from it. The film is kept if this was
-  // said before the end.
+  // said before the end, or with the request.
   void keep_film();
   bool is_refinable() const;
   // Null: there is none, and who goes on renders the passes of the report again.
@@ -74,7 +76,7 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   void set_render(std::shared_ptr<Render> render);
   std::shared_ptr<Render> render() const;
   void bump();  // a pass is done
-  // Takes image and report from the render and lets it go.
+  // Takes image, lines and report from the render and lets it go.
   void take_result();
   void set_ended(JobState state, std::string error, int64_t finished_ms);
   void request_cancel();
@@ -100,8 +102,9 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   WorkStatus status_;  // progress and report are filled in from render_ while there is one
   std::shared_ptr<Render> render_;
   Picture picture_;
+  std::string lines_svg_;   // beside picture_
   std::string image_hash_;  // after the end
-  bool keeps_film_ = false;
+  bool keeps_film_;
   std::shared_ptr<const ExposedFilm> film_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;
   int64_t encoded_bytes_ = 0;
@@ -110,6 +113,8 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
 
 using WorkPtr = std::shared_ptr<RenderWork>;
 
+// Tags what is encoded already.
+EncodedPtr tagged(std::string bytes);
 // Encodes and tags an image.
 Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format);
 

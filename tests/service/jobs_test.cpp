@@ -38,6 +38,30 @@ TEST(Jobs, WhoseRecordIsRefusedAreNoJobsAndTheirWorkStops) {
   queue->drain(0.0);
 }
 
+TEST(RenderWork, KeepsTheLinesOfADrawingBesideItsImageCountsThemAndDropsThemWithIt) {
+  const HandClock clock;
+  const server::Log log("off", false);
+  server::Metrics metrics;
+  TilePool pool(1);
+  const auto compiled = server::CompiledCache::make(pool, metrics, 1 << 20);
+  const auto queue = server::JobQueue::make(pool, compiled, metrics, log, clock, {});
+  auto scene = std::make_shared<server::StoredScene>();
+  scene->parsed = parse_scene(line_scene(), Limits{}).value();
+  const auto lease = queue->submit({scene, scene->parsed.view, ImageFormat::png, Priority::batch, {}, 0.0});
+  ASSERT_TRUE(lease);
+  const server::WorkPtr work = lease->work();
+  ASSERT_TRUE(work->wait_end({}, server::after_ms(30'000.0)));
+  const int64_t line_bytes = static_cast<int64_t>(work->lines_svg().size());
+  EXPECT_GT(line_bytes, 0);
+  const int64_t before = work->result_bytes();
+  work->drop_image();
+  EXPECT_EQ(before - work->result_bytes(), 48 * 32 * (3 + 1) * 4 + line_bytes) << "colours, errors and lines";
+  EXPECT_EQ(work->lines_svg(), "");
+  EXPECT_EQ(work->encoded(ImageFormat::svg, pool).error().code, "expired");
+  EXPECT_TRUE(work->encoded(ImageFormat::png, pool)) << "encoded before";
+  queue->drain(0.0);
+}
+
 TEST(IdempotencyKeys, OfTriesThatOverlapHoldTheFirstJob) {
   const HandClock clock;
   server::IdempotencyKeys keys(clock);

@@ -10,6 +10,7 @@
 #include "server/http/head.h"
 #include "server/http/json_members.h"
 #include "server/http/negotiate.h"
+#include "server/jobs/job.h"
 #include "server/log.h"
 
 namespace tilelight::server {
@@ -90,12 +91,28 @@ TEST(Accept, PicksTheBestOfferByQualityAndSpecificity) {
 }
 
 TEST(Accept, AnImageIsWaitedForOnlyWhereItIsNamed) {
-  EXPECT_EQ(asked_image_format(with_header("accept", "image/png")), ImageFormat::png);
-  EXPECT_EQ(asked_image_format(with_header("accept", "image/x-exr, image/png;q=0.9")), ImageFormat::exr);
-  EXPECT_EQ(asked_image_format(with_header("accept", "image/*")), ImageFormat::png);
-  EXPECT_EQ(asked_image_format(with_header("accept", "*/*")), std::nullopt);
-  EXPECT_EQ(asked_image_format(with_header("accept", "application/json, image/png;q=0.5")), std::nullopt);
-  EXPECT_EQ(asked_image_format({}), std::nullopt);
+  const auto asked = [](std::string accept) {
+    return asked_image_format(with_header("accept", std::move(accept)), image_formats(false));
+  };
+  EXPECT_EQ(asked("image/png"), ImageFormat::png);
+  EXPECT_EQ(asked("image/x-exr, image/png;q=0.9"), ImageFormat::exr);
+  EXPECT_EQ(asked("image/*"), ImageFormat::png);
+  EXPECT_EQ(asked("*/*"), std::nullopt);
+  EXPECT_EQ(asked("application/json, image/png;q=0.5"), std::nullopt);
+  EXPECT_EQ(asked_image_format({}, image_formats(false)), std::nullopt);
+}
+
+TEST(Accept, AnSvgIsOfferedOfLinesAloneAndOnlyToWhoPrefersIt) {
+  const auto asked = [](std::string accept, bool with_lines) {
+    return asked_image_format(with_header("accept", std::move(accept)), image_formats(with_lines));
+  };
+  EXPECT_EQ(asked("image/svg+xml", true), ImageFormat::svg);
+  EXPECT_EQ(asked("image/svg+xml", false), std::nullopt);
+  EXPECT_EQ(asked("image/svg+xml, image/png;q=0.5", true), ImageFormat::svg);
+  EXPECT_EQ(asked("image/svg+xml, image/png;q=0.5", false), ImageFormat::png);
+  EXPECT_EQ(asked("image/svg+xml, application/json;q=0.5", false), std::nullopt);
+  // What Chrome sends for <img>: it takes anything.
+  EXPECT_EQ(asked("image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8", true), ImageFormat::png);
 }
 
 TEST(Prefer, IsReadFromLists) {

@@ -52,6 +52,12 @@ bool Service::metric_reaches(const std::string& sample, double value) const {
 std::string small_scene(int seed) { return scene(48, 32, 2, seed); }
 std::string endless_scene(int seed) { return scene(2048, 2048, 4096, seed); }
 
+std::string line_scene(const std::string& render) {
+  return R"({"image": {"width": 48, "height": 32}, "camera": {"position": [5, 4, 6]},
+             "render": {"algorithm": "roberts")" +
+         render + R"(}, "objects": [{"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]}]})";
+}
+
 std::pair<int, int> png_size(std::string_view bytes) {
   if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG") return {0, 0};
   const auto number = [&](size_t at) {

@@ -68,6 +68,9 @@ std::string small_scene(int seed = 0);
 // The same at 2048x2048 and 4096 samples a pixel: longer than any test, unless it is cancelled.
 std::string endless_scene(int seed = 0);
 
+// A box seen from a corner, drawn by roberts, 48x32. render: more members of its "render", each with a comma before it.
+std::string line_scene(const std::string& render = R"(, "samples": 2)");
+
 // Width and height of a PNG; 0 where the bytes are none.
 std::pair<int, int> png_size(std::string_view bytes);
 

@@ -181,6 +181,7 @@ class FailedRender final : public Render {
   std::shared_ptr<const std::vector<float>> error_bounds() const override { return nullptr; }
   std::shared_ptr<const ExposedFilm> exposed_film() const override { return nullptr; }
   std::shared_ptr<const Image> image() const override { return nullptr; }
+  std::string lines_svg() const override { return {}; }
   bool wait_ms(double) const override { return true; }
 };
 

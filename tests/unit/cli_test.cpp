@@ -203,6 +203,30 @@ TEST_F(Command, DrawsByTheMethodAndShadingAskedFor) {
   EXPECT_NE(unknown.err.find("zbuffer"), std::string::npos) << unknown.err;
 }
 
+TEST_F(Command, WritesALineDrawingAsSvgAndNothingElseAsOne) {
+  write("box.json", R"({"camera": {"position": [5, 4, 6]}, "image": {"width": 70, "height": 50},
+                        "render": {"algorithm": "roberts", "samples": 1},
+                        "objects": [{"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]}]})");
+  const Outcome outcome = run({"render", "box.json", "-o", "box.svg"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string svg = read("box.svg");
+  EXPECT_EQ(svg.substr(0, 5), "<svg ");
+  EXPECT_NE(svg.find("viewBox=\"0 0 70 50\""), std::string::npos) << svg;
+  EXPECT_EQ(svg.find("stroke-dasharray"), std::string::npos) << svg;
+  ASSERT_EQ(run({"render", "box.json", "--hidden-lines", "-o", "all.svg"}).code, 0);
+  EXPECT_NE(read("all.svg").find("stroke-dasharray"), std::string::npos);
+
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"-o", "no.svg", "--algorithm", "zbuffer"}, {"-o", "a.png", "--error-map", "no.svg"}}) {
+    std::vector<std::string> arguments = {"render", "box.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("no.svg"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(results().size(), 3u) << "the scene and two drawings";
+}
+
 TEST_F(Command, LaysMethodsSideBySide) {
   const Outcome outcome = run({"compare", "scene.json", "-o", "side/by/side", "--methods", "zbuffer,warnock",
                                "--shadings", "gouraud", "--samples", "1", "--rounds", "1"});

@@ -61,6 +61,15 @@ TEST(ImageIo, NoFormatHoldsTheTimeOfDay) {
   }
 }
 
+TEST(ImageIo, AnSvgHasANameButNoPixels) {
+  EXPECT_EQ(image_format_from_extension("a/lines.SVG"), ImageFormat::svg);
+  EXPECT_EQ(image_format_from_media_type("image/svg+xml"), ImageFormat::svg);
+  EXPECT_EQ(media_type(ImageFormat::svg), "image/svg+xml");
+  EXPECT_EQ(encode_image(gradient(8, 8), 0.0, ImageFormat::svg).error().code, "no_pixels");
+  EXPECT_EQ(decode_image("<svg/>", ImageFormat::svg, 1 << 20).error().code, "no_pixels");
+  EXPECT_EQ(decode_linear("<svg/>", ImageFormat::svg, 1 << 20).error().code, "no_pixels");
+}
+
 TEST(ImageIo, JpegIsCloseOnASmoothPicture) {
   const Image image = gradient(128, 64);
   const auto bytes = encode_image(image, 0.0, ImageFormat::jpeg);
