@@ -272,9 +272,10 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
-      std::fprintf(stderr,
-                   "tilelight: no command is called '%s'; there are render, plan, report, chess, check and schema\n",
-                   words[0].c_str());
+      std::fprintf(
+          stderr,
+          "tilelight: no command is called '%s'; there are render, plan, report, compare, chess, check and schema\n",
+          words[0].c_str());
       return kBadInput;
     }
     return app.exit(error) == 0 ? kOk : kBadInput;  // prints the help, the version or what is wrong

@@ -137,11 +137,15 @@ ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_vie
   }
   const RenderSpec& spec = out.view.render;
   if (is_tessellated(spec) && out.features.has(Feature::spheres)) {
-    const int64_t triangles = tessellated_triangles(scene, out.eye, spec.chord_error_px);
-    leave_out(Feature::spheres, "they are drawn as triangles, " + std::to_string(triangles) + " in all");
+    const SphereCut cut = sphere_cut(scene, out.eye, spec.chord_error_px);
+    leave_out(Feature::spheres, "they are drawn as triangles, " + std::to_string(cut.triangles) + " in all");
+    if (cut.chord_error_px > spec.chord_error_px)
+      out.plan.warnings.push_back(
+          {"/render/chord_error_px", "coarser_spheres",
+           "so many spheres are cut coarser, to stay at " + std::to_string(kMostSphereTriangles) + " triangles"});
     out.features.add(Feature::triangles);
     out.features.add(Feature::smooth_normals);
-    out.plan.triangles_instanced += triangles;
+    out.plan.triangles_instanced += cut.triangles;
   }
   out.variant = choose_variant(out.features);
   out.plan.features = out.features;

@@ -33,20 +33,28 @@ int sphere_detail(const CompiledBody& sphere, const Eye& eye, double chord_error
   return kMaxSphereDetail;
 }
 
-int64_t tessellated_triangles(const CompiledScene& scene, const Eye& eye, double chord_error_px) {
-  int64_t sum = 0;
-  for (const CompiledBody& body : scene.bodies) {
-    if (!is_sphere(body)) continue;
-    const int64_t detail = sphere_detail(body, eye, chord_error_px);
-    sum += 8 * detail * detail;
+SphereCut sphere_cut(const CompiledScene& scene, const Eye& eye, double chord_error_px) {
+  SphereCut cut{chord_error_px, 0};
+  for (;;) {
+    int64_t spheres = 0;
+    cut.triangles = 0;
+    for (const CompiledBody& body : scene.bodies) {
+      if (!is_sphere(body)) continue;
+      const int64_t detail = sphere_detail(body, eye, cut.chord_error_px);
+      cut.triangles += 8 * detail * detail;
+      ++spheres;
+    }
+    const bool is_coarsest = cut.triangles == spheres * 8 * kDetails[0] * kDetails[0];
+    if (cut.triangles <= kMostSphereTriangles || is_coarsest) return cut;
+    cut.chord_error_px *= 2.0;
   }
-  return sum;
 }
 
 std::shared_ptr<const CompiledScene> drawn_scene(const std::shared_ptr<const CompiledScene>& scene,
                                                  const ViewPlan& plan, TilePool& pool) {
   if (!is_tessellated(plan.view.render)) return scene;
   if (std::none_of(scene->bodies.begin(), scene->bodies.end(), is_sphere)) return scene;
+  const double chord_error_px = sphere_cut(*scene, plan.eye, plan.view.render.chord_error_px).chord_error_px;
   auto out = std::make_shared<CompiledScene>(*scene);
   struct Made {
     const CompiledMesh* mesh = nullptr;
@@ -55,7 +63,7 @@ std::shared_ptr<const CompiledScene> drawn_scene(const std::shared_ptr<const Com
   std::map<int, Made> made;
   for (CompiledBody& body : out->bodies) {
     if (!is_sphere(body)) continue;
-    const int detail = sphere_detail(body, plan.eye, plan.view.render.chord_error_px);
+    const int detail = sphere_detail(body, plan.eye, chord_error_px);
     Made& one = made[detail];
     if (!one.mesh) {
       out->meshes.push_back(compile_mesh(make_sphere_mesh(detail)));

@@ -15,8 +15,14 @@ namespace tilelight {
 // REQUIRES: a sphere.
 int sphere_detail(const CompiledBody& sphere, const Eye& eye, double chord_error_px);
 
-// Triangles that the spheres of a scene become.
-int64_t tessellated_triangles(const CompiledScene& scene, const Eye& eye, double chord_error_px);
+// How the spheres of a scene are cut for a view: to the error that it asks for, or to twice, four times, ... that, so
+// that they come to no more than kMostSphereTriangles. Many spheres of the coarsest cut may be more.
+inline constexpr int64_t kMostSphereTriangles = 2'000'000;
+struct SphereCut {
+  double chord_error_px = 0.0;
+  int64_t triangles = 0;
+};
+SphereCut sphere_cut(const CompiledScene& scene, const Eye& eye, double chord_error_px);
 
 // What the view is drawn from: the same scene with its spheres as meshes, if the view asks for triangles; bodies keep
 // their places. The scene itself where nothing changes.

@@ -21,13 +21,14 @@ class Raytrace final : public Method {
 
 class Zbuffer final : public Method, public WindowFinder {
  public:
-  Zbuffer(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) : raster_(scene, plan, pool) {}
+  Zbuffer(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, const std::atomic<bool>* stop)
+      : raster_(scene, plan, pool, stop) {}
   void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
   MethodWork work() const override { return zbuffer_work(raster_); }
   int64_t memory_bytes() const override { return raster_.memory_bytes(); }
 
-  std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {
-    std::vector<const RasterPrim*> prims = raster_.in_window(x, y);
+  std::span<const RasterPrim* const> find(int x, int y, std::span<VisibleWindow> layers) const override {
+    const std::span<const RasterPrim* const> prims = raster_.in_window(x, y);
     for (VisibleWindow& layer : layers) draw_depths(prims, x * kWindowPx, y * kWindowPx, layer);
     return prims;
   }
@@ -38,13 +39,13 @@ class Zbuffer final : public Method, public WindowFinder {
 
 class Warnock final : public Method, public WindowFinder {
  public:
-  Warnock(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
-      : raster_(scene, plan, pool), subdivision_(raster_, pool) {}
+  Warnock(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, const std::atomic<bool>* stop)
+      : raster_(scene, plan, pool, stop), subdivision_(raster_, pool, stop) {}
   void draw(const TileJob& job) const override { draw_windows(raster_, *this, job); }
   MethodWork work() const override { return warnock_work(raster_, subdivision_); }
   int64_t memory_bytes() const override { return raster_.memory_bytes() + subdivision_.memory_bytes(); }
 
-  std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const override {
+  std::span<const RasterPrim* const> find(int x, int y, std::span<VisibleWindow> layers) const override {
     return subdivision_.draw(x, y, layers);
   }
 
@@ -55,8 +56,8 @@ class Warnock final : public Method, public WindowFinder {
 
 class Roberts final : public Method {
  public:
-  Roberts(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
-      : spec_(plan.view.render), drawing_(draw_lines(scene, plan, pool, spec_.hidden_lines)), ink_(drawing_) {}
+  Roberts(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, const std::atomic<bool>* stop)
+      : spec_(plan.view.render), drawing_(draw_lines(scene, plan, pool, spec_.hidden_lines, stop)), ink_(drawing_) {}
   void draw(const TileJob& job) const override { draw_ink(ink_, spec_, job); }
   MethodWork work() const override { return roberts_work(drawing_); }
   int64_t memory_bytes() const override { return static_cast<int64_t>(drawing_.lines.size() * sizeof(DrawnLine)); }
@@ -70,14 +71,15 @@ class Roberts final : public Method {
 
 }  // namespace
 
-std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) {
+std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool,
+                                          const std::atomic<bool>* stop) {
   switch (plan.view.render.algorithm) {
     case Algorithm::zbuffer:
-      return std::make_unique<Zbuffer>(scene, plan, pool);
+      return std::make_unique<Zbuffer>(scene, plan, pool, stop);
     case Algorithm::warnock:
-      return std::make_unique<Warnock>(scene, plan, pool);
+      return std::make_unique<Warnock>(scene, plan, pool, stop);
     case Algorithm::roberts:
-      return std::make_unique<Roberts>(scene, plan, pool);
+      return std::make_unique<Roberts>(scene, plan, pool, stop);
     case Algorithm::raytrace:
       break;
   }

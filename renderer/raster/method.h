@@ -37,7 +37,9 @@ class Method {
 };
 
 // Runs on the calling thread and on idle threads of the pool. REQUIRES: a scene without spheres, if the view is drawn
-// from triangles; both outlive the method.
-std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
+// from triangles; both outlive the method. Throws Stopped soon after `stop` is set, and std::length_error where the
+// method cannot hold the scene.
+std::unique_ptr<const Method> make_method(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool,
+                                          const std::atomic<bool>* stop = nullptr);
 
 }  // namespace tilelight

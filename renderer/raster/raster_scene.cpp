@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "renderer/base/safe_length.h"
 #include "renderer/compile/passes.h"
@@ -27,7 +28,6 @@ Vec3 box_corner(const Vec3& half, uint32_t face, const int (&signs)[2]) {
   return corner;
 }
 
-// How many triangles are handed out at a time.
 uint32_t triangle_count(const CompiledBody& body) {
   if (body.kind == BodyKind::mesh) return static_cast<uint32_t>(body.mesh->triangles.size());
   return body.kind == BodyKind::box ? kBoxTriangles : 1;
@@ -66,11 +66,11 @@ double volume(const ImagePoint& a, const ImagePoint& b, const ImagePoint& c) {
 
 bool covers(const RasterPrim& prim, double x, double y) {
   if (prim.is_plane) {
-    const double near = nearness_at(prim, x, y);
-    return near > prim.nearness_min && near <= prim.nearness_max;
+    const double near = value_at(prim.nearness, x, y);
+    return near > prim.plane_above && near <= prim.plane_up_to;
   }
   for (const Edge& edge : prim.edges) {
-    if (!(edge.at[0] + edge.at[1] * x + edge.at[2] * y >= 0.0)) return false;
+    if (!(value_at(edge, x, y) >= 0.0)) return false;
   }
   return true;
 }
@@ -78,44 +78,49 @@ bool covers(const RasterPrim& prim, double x, double y) {
 uint32_t seen_at(std::span<const RasterPrim* const> prims, double x, double y) {
   double front = -std::numeric_limits<double>::infinity();
   for (const RasterPrim* prim : prims) {
-    if (covers(*prim, x, y)) front = std::max(front, nearness_at(*prim, x, y) - prim->slack);
+    if (covers(*prim, x, y)) front = std::max(front, surely_as_near(*prim, value_at(prim->nearness, x, y)));
   }
   for (uint32_t i = 0; i < prims.size(); ++i) {
-    if (covers(*prims[i], x, y) && nearness_at(*prims[i], x, y) + prims[i]->slack >= front) return i;
+    const RasterPrim& prim = *prims[i];
+    if (covers(prim, x, y) && maybe_as_near(prim, value_at(prim.nearness, x, y)) >= front) return i;
   }
   return kNone;
 }
 
-RasterScene::RasterScene(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool)
+RasterScene::RasterScene(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool,
+                         const std::atomic<bool>* stop)
     : scene_(scene),
       plan_(plan),
       reach_px_(plan.view.render.filter == PixelFilter::box ? 0 : kFilterReachPx),
-      windows_across_((plan.view.image.width + kWindowPx - 1) / kWindowPx) {
+      windows_across_((plan.view.image.width + kWindowPx - 1) / kWindowPx),
+      windows_down_((plan.view.image.height + kWindowPx - 1) / kWindowPx) {
   constexpr uint32_t kChunkTriangles = 4096;
   std::vector<uint32_t> by_id(scene.bodies.size());
   std::iota(by_id.begin(), by_id.end(), 0u);
   std::sort(by_id.begin(), by_id.end(),
             [&](uint32_t a, uint32_t b) { return scene.bodies[a].body < scene.bodies[b].body; });
-  // Many small bodies share a chunk's thread as well: a chunk of theirs is cheap, but it is one all the same.
   for (const uint32_t body : by_id) {
     const uint32_t count = triangle_count(scene.bodies[body]);
+    counts_.triangles += scene.bodies[body].kind == BodyKind::plane ? 0 : count;
     for (uint32_t first = 0; first < count; first += kChunkTriangles)
-      chunks_.push_back({body, first, std::min(count, first + kChunkTriangles), {}, {}, {}});
+      chunks_.push_back({body, first, std::min(count, first + kChunkTriangles), {}, {}});
   }
-  pool.parallel_for(static_cast<int64_t>(chunks_.size()), Priority::normal, [&](int64_t i) {
-    set_up(chunks_[static_cast<size_t>(i)]);
-    place(chunks_[static_cast<size_t>(i)]);
-  });
+  if (counts_.triangles > kMostRasterTriangles)
+    throw std::length_error("this method holds a scene of " + std::to_string(kMostRasterTriangles) +
+                            " triangles, and this one has " + std::to_string(counts_.triangles) +
+                            "; ray tracing shares them among instances");
+  pool.parallel_for(
+      static_cast<int64_t>(chunks_.size()), Priority::normal,
+      [&](int64_t i) { set_up(chunks_[static_cast<size_t>(i)]); }, stop);
   uint32_t order = 0;
   for (Chunk& chunk : chunks_) {
     for (RasterPrim& prim : chunk.prims) prim.order = order++;
-    counts_.triangles += chunk.counts.triangles;
     counts_.turned_away += chunk.counts.turned_away;
     counts_.outside += chunk.counts.outside;
     counts_.clipped += chunk.counts.clipped;
     counts_.drawn += static_cast<int64_t>(chunk.prims.size());
-    counts_.placements += static_cast<int64_t>(chunk.placements.size());
   }
+  place_in_windows();
 }
 
 void RasterScene::set_up(Chunk& chunk) const {
@@ -128,7 +133,6 @@ void RasterScene::set_up(Chunk& chunk) const {
     return;
   }
   const double hidden = hidden_sign(body, plan_.eye);
-  chunk.counts.triangles = chunk.last - chunk.first;
   for (uint32_t t = chunk.first; t < chunk.last; ++t) {
     ImagePoint corners[3];
     for (int c = 0; c < 3; ++c) {
@@ -146,28 +150,28 @@ void RasterScene::set_up(Chunk& chunk) const {
   }
 }
 
-void RasterScene::place(Chunk& chunk) const {
-  for (uint32_t i = 0; i < chunk.prims.size(); ++i) {
-    const TileRect& box = chunk.prims[i].box;
-    for (int y = box.y0 / kWindowPx; y * kWindowPx < box.y1; ++y) {
-      for (int x = box.x0 / kWindowPx; x * kWindowPx < box.x1; ++x)
-        chunk.placements.push_back({static_cast<uint32_t>(y * windows_across_ + x), i});
+void RasterScene::place_in_windows() {
+  const auto for_each_window = [&](const RasterPrim& prim, const auto& visit) {
+    for (int y = prim.box.y0 / kWindowPx; y * kWindowPx < prim.box.y1; ++y) {
+      for (int x = prim.box.x0 / kWindowPx; x * kWindowPx < prim.box.x1; ++x)
+        visit(static_cast<size_t>(y) * windows_across_ + x);
     }
-  }
-  std::sort(chunk.placements.begin(), chunk.placements.end(), [](const Placement& a, const Placement& b) {
-    return a.window != b.window ? a.window < b.window : a.prim < b.prim;
-  });
+  };
+  begins_.assign(static_cast<size_t>(windows_across_) * windows_down_ + 1, 0);
+  for (const Chunk& chunk : chunks_)
+    for (const RasterPrim& prim : chunk.prims) for_each_window(prim, [&](size_t window) { ++begins_[window + 1]; });
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  placed_.resize(begins_.back());
+  std::vector<size_t> next(begins_.begin(), begins_.end() - 1);
+  for (const Chunk& chunk : chunks_)
+    for (const RasterPrim& prim : chunk.prims)
+      for_each_window(prim, [&](size_t window) { placed_[next[window]++] = &prim; });
+  counts_.placements = static_cast<int64_t>(placed_.size());
 }
 
-std::vector<const RasterPrim*> RasterScene::in_window(int x, int y) const {
-  std::vector<const RasterPrim*> out;
-  const auto window = static_cast<uint32_t>(y * windows_across_ + x);
-  const auto is_before = [](const Placement& a, uint32_t w) { return a.window < w; };
-  for (const Chunk& chunk : chunks_) {
-    auto at = std::lower_bound(chunk.placements.begin(), chunk.placements.end(), window, is_before);
-    for (; at != chunk.placements.end() && at->window == window; ++at) out.push_back(&chunk.prims[at->prim]);
-  }
-  return out;
+std::span<const RasterPrim* const> RasterScene::in_window(int x, int y) const {
+  const size_t window = static_cast<size_t>(y) * windows_across_ + x;
+  return std::span(placed_).subspan(begins_[window], begins_[window + 1] - begins_[window]);
 }
 
 std::vector<const RasterPrim*> RasterScene::all() const {
@@ -179,8 +183,8 @@ std::vector<const RasterPrim*> RasterScene::all() const {
 
 int64_t RasterScene::memory_bytes() const {
   return counts_.drawn * static_cast<int64_t>(sizeof(RasterPrim)) +
-         counts_.placements * static_cast<int64_t>(sizeof(Placement)) +
-         static_cast<int64_t>(chunks_.size() * sizeof(Chunk));
+         static_cast<int64_t>(placed_.size() * sizeof(placed_[0]) + begins_.size() * sizeof(begins_[0]) +
+                              chunks_.size() * sizeof(Chunk));
 }
 
 }  // namespace tilelight

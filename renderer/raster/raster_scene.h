@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,25 +27,29 @@ using Edge = Affine;
 
 struct RasterPrim {
   std::array<Edge, 3> edges;
-  // How near it is at a place of the grid, up to `slack`. A triangle's is never outside of that of its corners; a
-  // plane, which has no edges, is there where its own is above the first of the range and up to the second.
-  Affine nearness;
-  double nearness_min = 0.0, nearness_max = 0.0;
-  double slack = 0.0;
-  TileRect box;  // pixels that it may meet
+  Affine nearness;     // how near it is at a place of the grid
+  double slack = 0.0;  // what rounding may have done to that
+  // A triangle is never nearer or farther than its corners. A plane, which has no edges and no corners, is there where
+  // its nearness is above the first of its range and up to the second.
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  double plane_above = 0.0, plane_up_to = 0.0;
   bool is_plane = false;
+  TileRect box;                 // pixels that it may meet
   uint32_t body = 0, prim = 0;  // as a Hit has them
   uint32_t order = 0;           // its place among all, by id
 };
 
-// The sample rule: of the primitives that cover a sample, each is as near as its nearness says, give or take its slack.
-// The front is the largest nearness that some primitive has for certain; of those that may be as near, all in one place
-// for what numbers can tell, the lowest id (public id of the body, then primitive) is seen. No order matters.
+// The sample rule: of the primitives that cover a sample, each is surely as near as one number and maybe as near as
+// another. The front is the largest nearness that some primitive surely has; of those that may be as near, all in one
+// place for what numbers can tell, the lowest id (public id of the body, then primitive) is seen. No order matters.
 // x, y: the sample, in steps of the grid.
 bool covers(const RasterPrim& prim, double x, double y);
-inline double nearness_at(const RasterPrim& prim, double x, double y) {
-  const double plain = prim.nearness.at[0] + prim.nearness.at[1] * x + prim.nearness.at[2] * y;
-  return prim.is_plane ? plain : std::clamp(plain, prim.nearness_min, prim.nearness_max);
+inline double value_at(const Affine& f, double x, double y) { return f.at[0] + f.at[1] * x + f.at[2] * y; }
+inline double surely_as_near(const RasterPrim& prim, double nearness) {
+  return std::clamp(nearness - prim.slack, prim.least, prim.most);
+}
+inline double maybe_as_near(const RasterPrim& prim, double nearness) {
+  return std::clamp(nearness + prim.slack, prim.least, prim.most);
 }
 // The sample rule, by looking at every primitive: the place in the list of the one that is seen; kNone: none. REQUIRES:
 // a list in the order of ids.
@@ -60,10 +65,15 @@ struct RasterCounts {
   int64_t placements = 0;   // of primitives in windows
 };
 
+// What is drawn is kept, some 200 bytes a triangle in view, while rays share the meshes of instances.
+inline constexpr int64_t kMostRasterTriangles = 8'000'000;
+
 class RasterScene {
  public:
-  // REQUIRES: a scene without spheres (tessellate). Runs on the calling thread and on idle threads of the pool.
-  RasterScene(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
+  // REQUIRES: a scene without spheres (drawn_scene). Runs on the calling thread and on idle threads of the pool. Throws
+  // as make_method does.
+  RasterScene(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool,
+              const std::atomic<bool>* stop = nullptr);
 
   const CompiledScene& scene() const { return scene_; }
   const ViewPlan& plan() const { return plan_; }
@@ -72,29 +82,27 @@ class RasterScene {
   int64_t memory_bytes() const;
 
   // The primitives that may meet a window, in the order of their ids. x, y: its pixels over kWindowPx.
-  std::vector<const RasterPrim*> in_window(int x, int y) const;
+  std::span<const RasterPrim* const> in_window(int x, int y) const;
   // All of them.
   std::vector<const RasterPrim*> all() const;
 
  private:
-  struct Placement {
-    uint32_t window, prim;
-  };
   // Neighbours in order of id, set up by one thread.
   struct Chunk {
     uint32_t body = 0, first = 0, last = 0;  // of its triangles
     std::vector<RasterPrim> prims;
-    std::vector<Placement> placements;  // by window, then id
     RasterCounts counts;
   };
 
   void set_up(Chunk& chunk) const;
-  void place(Chunk& chunk) const;
+  void place_in_windows();
 
   const CompiledScene& scene_;
   const ViewPlan& plan_;
-  int reach_px_ = 0, windows_across_ = 0;
+  int reach_px_ = 0, windows_across_ = 0, windows_down_ = 0;
   std::vector<Chunk> chunks_;
+  std::vector<size_t> begins_;  // of the windows in placed_, row by row
+  std::vector<const RasterPrim*> placed_;
   RasterCounts counts_;
 };
 

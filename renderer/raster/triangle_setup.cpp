@@ -46,9 +46,9 @@ Polygon cut(const Polygon& polygon, const TriangleSetup::Clip& clip) {
 struct GridPoint {
   double x, y;  // whole steps of 1/256 pixel
 };
-GridPoint on_grid(const ImagePoint& p) {
-  return {std::nearbyint(p.x / p.w * kSubpixels), std::nearbyint(p.y / p.w * kSubpixels)};
-}
+// What clipping has left beyond the guard, by the rounding of corners far away, is brought back to it.
+double on_grid(double px) { return std::nearbyint(std::clamp(px, -kGuardPx, 2.0 * kGuardPx) * kSubpixels); }
+GridPoint on_grid(const ImagePoint& p) { return {on_grid(p.x / p.w), on_grid(p.y / p.w)}; }
 
 // Inside is on the right of the way from a to b as the image lies, y downwards.
 Edge edge_between(const GridPoint& a, const GridPoint& b) {
@@ -123,8 +123,9 @@ bool TriangleSetup::add_part(const ImagePoint& a, const ImagePoint& b, const Ima
   if (prim.box.width() <= 0 || prim.box.height() <= 0) return false;
   prim.edges = {edge_between(p, q), edge_between(q, r), edge_between(r, p)};
   const double near[3] = {a.nearness / a.w, b.nearness / b.w, c.nearness / c.w};
-  prim.nearness_min = std::min({near[0], near[1], near[2]});
-  prim.nearness_max = std::max({near[0], near[1], near[2]});
+  const auto [least, most] = std::minmax({near[0], near[1], near[2]});
+  const double rounding = 0x1p-48 * std::max(std::abs(least), std::abs(most));
+  prim.least = least - rounding, prim.most = most + rounding;
   for (int i = 1; i < 3; ++i) prim.nearness.at[i] /= kSubpixels;
   out.push_back(prim);
   return true;
@@ -140,8 +141,8 @@ void TriangleSetup::add_plane(const Vec3& place, const Vec3& normal, uint32_t bo
                           std::abs(prim.nearness.at[2]) * height_);
   if (!std::isfinite(prim.slack)) return;  // it passes through the eye
   for (int i = 1; i < 3; ++i) prim.nearness.at[i] /= kSubpixels;
-  prim.nearness_min = projection_.least_nearness();
-  prim.nearness_max = projection_.most_nearness();
+  prim.plane_above = projection_.least_nearness();
+  prim.plane_up_to = projection_.most_nearness();
   prim.box = {0, 0, static_cast<int>(width_), static_cast<int>(height_)};
   out.push_back(prim);
 }

@@ -28,13 +28,13 @@ Span over(const Affine& f, const Places& p) {
   return {f.at[0] + std::min(x0, x1) + std::min(y0, y1), f.at[0] + std::max(x0, x1) + std::max(y0, y1)};
 }
 
-// How near a primitive is wherever it is met in a window. Rounding keeps order, so what holds at the corners, rounded,
-// holds for the samples, rounded.
-Span nearness_over(const RasterPrim& prim, const Places& places) {
-  const Span near = over(prim.nearness, places);
-  if (prim.is_plane) return near;
-  return {std::clamp(near.least, prim.nearness_min, prim.nearness_max),
-          std::clamp(near.most, prim.nearness_min, prim.nearness_max)};
+// How near a primitive surely and maybe is, wherever it is met in a window. Rounding keeps order, so what holds at the
+// corners, rounded, holds for the samples, rounded.
+double surely_everywhere(const RasterPrim& prim, const Places& places) {
+  return surely_as_near(prim, over(prim.nearness, places).least);
+}
+double maybe_anywhere(const RasterPrim& prim, const Places& places) {
+  return maybe_as_near(prim, over(prim.nearness, places).most);
 }
 
 bool meets(const TileRect& a, const TileRect& b) { return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1; }
@@ -59,16 +59,13 @@ struct Look {
 // Whether `back` is behind `front`, which surrounds the window, wherever both are met: their nearness differs by an
 // affine function, so its corners tell. Surfaces that recede side by side are told apart long before their ranges are.
 bool is_behind(const RasterPrim& back, const RasterPrim& front, const Places& places) {
-  if (back.is_plane || front.is_plane) return false;      // a range of nearness may end within the window
   const double apart = 2.0 * (back.slack + front.slack);  // and more than rounding at any place
   for (const double x : {places.x0, places.x1}) {
     for (const double y : {places.y0, places.y1}) {
-      const auto plain = [&](const Affine& f) { return f.at[0] + f.at[1] * x + f.at[2] * y; };
-      if (!(plain(back.nearness) + apart < std::min(plain(front.nearness), front.nearness_max))) return false;
+      if (!(value_at(back.nearness, x, y) + apart < std::min(value_at(front.nearness, x, y), front.most))) return false;
     }
   }
-  // Neither may have been brought back into its own range to the other's side.
-  return back.nearness_min + apart < nearness_over(front, places).least;
+  return back.least < surely_everywhere(front, places);  // it may have been brought up to that
 }
 
 // What of the primitives may be seen in a window: none that does not meet it, none behind one that surrounds it.
@@ -84,14 +81,14 @@ Look look_into(const TileRect& window, const PrimList& prims, int reach_px) {
     out.seen.push_back(prim);
     surrounds.push_back(lie == Lie::surrounding);
     if (lie != Lie::surrounding) continue;
-    const double least = nearness_over(*prim, places).least - prim->slack;
+    const double least = surely_everywhere(*prim, places);
     if (least > front) front = least, nearest = prim;
   }
   if (!nearest) return out;
   size_t kept = 0;
   for (size_t i = 0; i < out.seen.size(); ++i) {
     const RasterPrim& prim = *out.seen[i];
-    if (nearness_over(prim, places).most + prim.slack < front) continue;
+    if (maybe_anywhere(prim, places) < front) continue;
     if (&prim != nearest && is_behind(prim, *nearest, places)) continue;
     out.seen[kept] = out.seen[i];
     surrounds[kept++] = surrounds[i];
@@ -108,8 +105,8 @@ Lie lie_of(const RasterPrim& prim, const TileRect& window, int reach_px) {
   const Places places(window, reach_px);
   if (prim.is_plane) {
     const Span near = over(prim.nearness, places);
-    if (near.most <= prim.nearness_min || near.least > prim.nearness_max) return Lie::disjoint;
-    const bool is_around = near.least > prim.nearness_min && near.most <= prim.nearness_max;
+    if (near.most <= prim.plane_above || near.least > prim.plane_up_to) return Lie::disjoint;
+    const bool is_around = near.least > prim.plane_above && near.most <= prim.plane_up_to;
     return is_around ? Lie::surrounding : Lie::intersecting;
   }
   bool is_around = true;
@@ -149,7 +146,7 @@ TileRect WarnockScene::root() const {
   return {0, 0, image.width, image.height};
 }
 
-WarnockScene::WarnockScene(const RasterScene& raster, TilePool& pool) : raster_(raster) {
+WarnockScene::WarnockScene(const RasterScene& raster, TilePool& pool, const std::atomic<bool>* stop) : raster_(raster) {
   const TileRect image = root();
   windows_across_ = (image.x1 + kWindowPx - 1) / kWindowPx;
   lists_.resize(static_cast<size_t>(windows_across_) * ((image.y1 + kWindowPx - 1) / kWindowPx));
@@ -161,22 +158,25 @@ WarnockScene::WarnockScene(const RasterScene& raster, TilePool& pool) : raster_(
   level.push_back({image, raster.all()});
   for (; !level.empty(); ++window_depth_) {
     std::vector<std::vector<Node>> parts(level.size());
-    pool.parallel_for(static_cast<int64_t>(level.size()), Priority::normal, [&](int64_t i) {
-      const Node& node = level[static_cast<size_t>(i)];
-      PrimList seen = look_into(node.window, node.prims, raster_.reach_px()).seen;
-      const TileRect& w = node.window;
-      if (std::max(w.width(), w.height()) <= kWindowPx) {
-        lists_[static_cast<size_t>(w.y0 / kWindowPx * windows_across_ + w.x0 / kWindowPx)] = std::move(seen);
-        return;
-      }
-      for (const TileRect& quarter : quarters(w)) parts[static_cast<size_t>(i)].push_back({quarter, seen});
-    });
+    pool.parallel_for(
+        static_cast<int64_t>(level.size()), Priority::normal,
+        [&](int64_t i) {
+          const Node& node = level[static_cast<size_t>(i)];
+          PrimList seen = look_into(node.window, node.prims, raster_.reach_px()).seen;
+          const TileRect& w = node.window;
+          if (std::max(w.width(), w.height()) <= kWindowPx) {
+            lists_[static_cast<size_t>(w.y0 / kWindowPx * windows_across_ + w.x0 / kWindowPx)] = std::move(seen);
+            return;
+          }
+          for (const TileRect& quarter : quarters(w)) parts[static_cast<size_t>(i)].push_back({quarter, seen});
+        },
+        stop);
     level.clear();
     for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(level));
   }
 }
 
-PrimList WarnockScene::draw(int x, int y, std::span<VisibleWindow> layers) const {
+std::span<const RasterPrim* const> WarnockScene::draw(int x, int y, std::span<VisibleWindow> layers) const {
   const PrimList& list = lists_[static_cast<size_t>(y * windows_across_ + x)];
   const TileRect image = root();
   const int x0 = x * kWindowPx, y0 = y * kWindowPx;

@@ -46,12 +46,13 @@ void subdivide(const TileRect& window, int depth, const PrimList& prims, int rea
 // Warnock's method for a whole view, from the image's own window down.
 class WarnockScene {
  public:
-  // Divides down to windows of kWindowPx, on the calling thread and on idle ones.
-  WarnockScene(const RasterScene& raster, TilePool& pool);
+  // Divides down to windows of kWindowPx, on the calling thread and on idle ones. Throws Stopped soon after
+  // `stop` is set.
+  WarnockScene(const RasterScene& raster, TilePool& pool, const std::atomic<bool>* stop = nullptr);
 
   // Fills the samples of a window, given as in RasterScene::in_window, in all layers. Owners are places in the list
   // that is returned.
-  PrimList draw(int x, int y, std::span<VisibleWindow> layers) const;
+  std::span<const RasterPrim* const> draw(int x, int y, std::span<VisibleWindow> layers) const;
   int64_t memory_bytes() const;
 
   // The whole subdivision once more, for those who want to see it.

@@ -60,18 +60,30 @@ void place_samples(const RenderSpec& spec, std::span<const CellWork> cells, uint
   }
 }
 
+// To the face of a box, or beside it to its rim, where the ray is nearest to that. The box is about the origin.
+double distance_to_face(const Vec3& half, uint32_t face, const LocalRay& ray) {
+  const int axis = static_cast<int>(face / 2);
+  const double t = ((face % 2 ? half[axis] : -half[axis]) - ray.origin[axis]) / ray.direction[axis];
+  const Vec3 at = ray.origin + t * ray.direction;
+  if (glm::all(glm::lessThanEqual(glm::abs(at), (1.0 + 0x1p-20) * half + 0x1p-300))) return t;
+  const Vec3 reach = glm::clamp(at, -half, half);  // not a number, where the ray runs along the face: its middle
+  const Vec3 rim = glm::mix(Vec3(0.0), reach, glm::equal(reach, reach));
+  return glm::dot(rim - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
+}
+
 // Draws `steps` samples of the cells, from each one's first on.
 void draw_window(const RasterScene& raster, const WindowFinder& finder, const TileJob& job, int x, int y,
                  std::vector<CellWork> cells, std::span<VisibleWindow> layers) {
   const int x0 = x * kWindowPx, y0 = y * kWindowPx;
   for (uint32_t step = 0; step < layers.size(); ++step)
     place_samples(raster.plan().view.render, cells, step, x0, y0, layers[step]);
-  const std::vector<const RasterPrim*> prims = finder.find(x, y, layers);
+  const std::span<const RasterPrim* const> prims = finder.find(x, y, layers);
   WindowHits hits(raster.scene(), x0, y0, layers, prims);
   for (const CellWork& cell : cells) hits.first_sample(cell.rect.x0, cell.rect.y0) = cell.first;
   TileJob part = job;
   part.cells = cells;
   part.first_hits = &hits;
+  part.counts->is_complete = false;  // of this window
   kernel_of(raster.plan().variant)(part);
 }
 
@@ -108,8 +120,7 @@ Hit hit_of(const CompiledScene& scene, uint32_t index, uint32_t prim, const Ray&
   hit.body = index;
   hit.prim = prim;
   if (body.kind == BodyKind::box) {
-    const int axis = static_cast<int>(prim / 2);
-    hit.t = ((prim % 2 ? body.half[axis] : -body.half[axis]) - local.origin[axis]) / local.direction[axis];
+    hit.t = distance_to_face(body.half, prim, local);
   } else if (body.kind == BodyKind::plane) {
     hit.t = -local.origin.y / local.direction.y;
   } else {
@@ -122,7 +133,7 @@ Hit hit_of(const CompiledScene& scene, uint32_t index, uint32_t prim, const Ray&
     const double b0 = std::max(found.b0, 0.0), b1 = std::max(found.b1, 0.0),
                  b2 = std::max(1.0 - found.b0 - found.b1, 0.0);
     const bool is_beside = found.b0 < 0.0 || found.b1 < 0.0 || found.b0 + found.b1 > 1.0;
-    hit.t = shift + found.t;
+    hit.t = shift + found.t;  // not asked for: a mesh's place is known by its weights
     hit.b0 = is_beside ? b0 / (b0 + b1 + b2) : found.b0;
     hit.b1 = is_beside ? b1 / (b0 + b1 + b2) : found.b1;
   }

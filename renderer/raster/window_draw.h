@@ -13,7 +13,7 @@ namespace tilelight {
 class WindowFinder {
  public:
   virtual ~WindowFinder() = default;
-  virtual std::vector<const RasterPrim*> find(int x, int y, std::span<VisibleWindow> layers) const = 0;
+  virtual std::span<const RasterPrim* const> find(int x, int y, std::span<VisibleWindow> layers) const = 0;
 };
 
 void draw_windows(const RasterScene& raster, const WindowFinder& finder, const TileJob& job);

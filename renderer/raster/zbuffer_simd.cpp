@@ -37,7 +37,7 @@ HWY_INLINE int64_t draw_triangle(const RasterPrim& prim, uint32_t owner, const T
   const int lanes = static_cast<int>(hn::Lanes(d));
   const AffineLanes e0(prim.edges[0]), e1(prim.edges[1]), e2(prim.edges[2]), nearness(prim.nearness);
   const V zero = hn::Zero(d), slack = hn::Set(d, prim.slack);
-  const V least = hn::Set(d, prim.nearness_min), greatest = hn::Set(d, prim.nearness_max);
+  const V least = hn::Set(d, prim.least), greatest = hn::Set(d, prim.most);
   int64_t covered = 0;
   for (int y = part.y0; y < part.y1; ++y) {
     for (int x = part.x0 / lanes * lanes; x < part.x1; x += lanes) {
@@ -48,8 +48,9 @@ HWY_INLINE int64_t draw_triangle(const RasterPrim& prim, uint32_t owner, const T
           hn::And(hn::And(hn::Ge(e0.at(sx, sy), zero), hn::Ge(e1.at(sx, sy), zero)), hn::Ge(e2.at(sx, sy), zero));
       if (hn::AllFalse(d, inside)) continue;
       covered += static_cast<int64_t>(hn::CountTrue(d, inside));
-      const V near = hn::Min(hn::Max(nearness.at(sx, sy), least), greatest);
-      const V surely = hn::Sub(near, slack), maybe = hn::Add(near, slack);
+      const V near = nearness.at(sx, sy);
+      const V surely = hn::Min(hn::Max(hn::Sub(near, slack), least), greatest);
+      const V maybe = hn::Min(hn::Max(hn::Add(near, slack), least), greatest);
       const V front = hn::Load(d, window.front + at), most = hn::Load(d, window.most + at);
       const M advances = hn::And(inside, hn::Gt(surely, front)), wins = hn::And(inside, hn::Gt(surely, most));
       hn::Store(hn::IfThenElse(advances, surely, front), d, window.front + at);
@@ -71,12 +72,12 @@ int64_t draw_plane(const RasterPrim& prim, uint32_t owner, VisibleWindow& window
   for (size_t at = 0; at < VisibleWindow::kPixels; ++at) {
     if (!covers(prim, window.x[at], window.y[at])) continue;
     ++covered;
-    const double near = nearness_at(prim, window.x[at], window.y[at]);
-    if (near - prim.slack > window.front[at]) {
-      window.owner[at] = near - prim.slack > window.most[at] ? owner : kTied;
-      window.front[at] = near - prim.slack;
+    const double near = value_at(prim.nearness, window.x[at], window.y[at]);
+    if (const double surely = surely_as_near(prim, near); surely > window.front[at]) {
+      window.owner[at] = surely > window.most[at] ? owner : kTied;
+      window.front[at] = surely;
     }
-    window.most[at] = std::max(window.most[at], near + prim.slack);
+    window.most[at] = std::max(window.most[at], maybe_as_near(prim, near));
   }
   return covered;
 }

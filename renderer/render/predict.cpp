@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/render/predict.h"
 
-#include "renderer/compile/tessellate.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/base/standard_floats.h"
+#include "renderer/compile/tessellate.h"
 #include "renderer/film/error_map.h"
 #include "renderer/film/film.h"
 #include "renderer/render/pass_schedule.h"

@@ -58,8 +58,10 @@ class TileRender final : public Render, public WorkSource {
     report_.threads = pool.thread_count();
     report_.seed = plan_.view.render.seed;
     // Kernels of local light alone do not look at what surfaces would pass on. Lines know no light.
-    if (plan_.view.render.max_depth == 0 && plan_.view.render.algorithm != Algorithm::roberts) tally_.untraced_weight = scene_->passed_on;
+    if (plan_.view.render.max_depth == 0 && plan_.view.render.algorithm != Algorithm::roberts)
+      tally_.untraced_weight = scene_->passed_on;
     report_.adaptive = plan_.view.render.adaptive;
+    if (source_) take_over();
     const std::lock_guard lock(mutex_);
     open_step(Stage::prepare, 0);
   }
@@ -79,9 +81,12 @@ class TileRender final : public Render, public WorkSource {
     std::string error;
     try {
       work_on(rect, counts);
+    } catch (const Stopped&) {  // cancelled while it prepared
     } catch (const std::exception& e) {
-      error = std::string(e.what()) + " (reproduce: tilelight render scene.json --pixel " + std::to_string(rect.x0) +
-              "," + std::to_string(rect.y0) + ")";
+      error = e.what();
+      if (stage_ != Stage::prepare)
+        error += " (reproduce: tilelight render scene.json --pixel " + std::to_string(rect.x0) + "," +
+                 std::to_string(rect.y0) + ")";
     }
     finish_item(counts, ms_between(begin, Clock::now()), error);
   }
@@ -142,9 +147,9 @@ class TileRender final : public Render, public WorkSource {
   std::string lines_svg() const override {
     {
       const std::lock_guard lock(mutex_);
-      if (standing_.passes == 0) return {};
+      if (stage_ == Stage::prepare) return {};
     }
-    return method_->lines_svg();  // written once, before the first pass
+    return method_->lines_svg();  // set once, by that stage
   }
 
   std::shared_ptr<const ExposedFilm> exposed_film() const override {
@@ -170,7 +175,7 @@ class TileRender final : public Render, public WorkSource {
   void work_on(const TileRect& tile, TileCounts& counts) {
     switch (stage_) {
       case Stage::prepare:
-        method_ = make_method(*scene_, plan_, pool_);
+        method_ = make_method(*scene_, plan_, pool_, &cancelled_);
         break;
       case Stage::copy:
         film_.copy(tile, source_->film);
@@ -398,9 +403,8 @@ class TileRender final : public Render, public WorkSource {
     return leave(Then::wake);
   }
 
-  void open_copy() {
-    for (size_t block = 0; block < kSampleBlocks && source_->film.planes()[block]; ++block)
-      film_.grow(static_cast<uint32_t>(block) + 1);
+  // What the render that is gone on from has shown and learnt; its samples are copied later.
+  void take_over() {
     error_map_ = source_->error_map;
     exposed_->image = source_->image;
     exposed_->error_bounds = source_->error_bounds;
@@ -408,6 +412,11 @@ class TileRender final : public Render, public WorkSource {
     standing_ = source_->standing;
     standing_.elapsed_ms = 0.0;
     first_spp_ = standing_.spp;
+  }
+
+  void open_copy() {
+    for (size_t block = 0; block < kSampleBlocks && source_->film.planes()[block]; ++block)
+      film_.grow(static_cast<uint32_t>(block) + 1);
     const std::lock_guard lock(mutex_);
     open_step(Stage::copy, 0);
   }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <latch>
 #include <mutex>
 #include <thread>
@@ -195,16 +196,26 @@ void TilePool::post(Priority priority, std::function<void()> task) {
   state_->ready.notify_one();
 }
 
-void TilePool::parallel_for(int64_t count, Priority priority, const std::function<void(int64_t)>& fn) {
+void TilePool::parallel_for(int64_t count, Priority priority, const std::function<void(int64_t)>& fn,
+                            const std::atomic<bool>* stop) {
   if (count <= 0) return;
   struct Loop {
-    Loop(int64_t n, const std::function<void(int64_t)>& f) : count(n), left(n), body(f) {}
-    // A helper that comes after the last index was handed out touches neither `body`, which may be gone, nor `left`.
+    Loop(int64_t n, const std::function<void(int64_t)>& f, const std::atomic<bool>* s)
+        : count(n), left(n), body(f), stop(s) {}
+    // A helper that comes after the last index was handed out touches neither `body` and `stop`, which may be gone, nor
+    // `left`.
     void run() {
       const StandardFloats floats;
       // Relaxed: the counter only hands out indices; `left` orders their results before the return.
       for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
-        body(i);
+        try {
+          if (!has_failed.load(std::memory_order_relaxed)) {  // relaxed: it only saves work
+            if (stop && stop->load(std::memory_order_relaxed)) throw Stopped{};
+            body(i);
+          }
+        } catch (...) {
+          if (!has_failed.exchange(true, std::memory_order_relaxed)) error = std::current_exception();
+        }
         left.count_down();
       }
     }
@@ -212,13 +223,17 @@ void TilePool::parallel_for(int64_t count, Priority priority, const std::functio
     std::atomic<int64_t> next{0};
     std::latch left;
     const std::function<void(int64_t)>& body;
+    const std::atomic<bool>* const stop;
+    std::atomic<bool> has_failed{false};
+    std::exception_ptr error;  // written once, before `left` lets the caller read it
   };
-  const auto loop = std::make_shared<Loop>(count, fn);
+  const auto loop = std::make_shared<Loop>(count, fn, stop);
   const int64_t helpers = std::min<int64_t>(count - 1, thread_count());
   for (int64_t i = 0; i < helpers; ++i) post(priority, [loop] { loop->run(); });
   loop->run();
   // Only for indices that some thread is running: a helper still in the queue holds none.
   loop->left.wait();
+  if (loop->error) std::rethrow_exception(loop->error);
 }
 
 }  // namespace tilelight

@@ -5,6 +5,7 @@
 // BVH building and encoding run here as tasks, so cores are never over-subscribed.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -33,6 +34,9 @@ class WorkSource {
   virtual void run(uint64_t item) = 0;
 };
 
+// Thrown out of work that was asked to stop.
+struct Stopped {};
+
 class TilePool {
  public:
   // threads = 0: one a hardware thread.
@@ -58,8 +62,10 @@ class TilePool {
   void post(Priority priority, std::function<void()> task);
 
   // Calls fn(i) for i in [0, count), on this thread and on idle pool threads; returns when all are done. May be called
-  // from a pool thread (it never waits for a queue). fn must not throw.
-  void parallel_for(int64_t count, Priority priority, const std::function<void(int64_t)>& fn);
+  // from a pool thread (it never waits for a queue). Once fn throws, indices not begun are left out, and the first
+  // exception comes out here. Once `stop` is set it is as if fn had thrown Stopped; null: nobody sets it.
+  void parallel_for(int64_t count, Priority priority, const std::function<void(int64_t)>& fn,
+                    const std::atomic<bool>* stop = nullptr);
 
  private:
   struct State;

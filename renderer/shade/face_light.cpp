@@ -73,57 +73,41 @@ void FaceLight::find_weights(const CompiledBody& body, const Hit& hit, const Sur
   }
 }
 
-void FaceLight::light_corners(const Ray& ray, const Hit& hit, const Vec4& viewer, Face& face) const {
+// The viewer and not the ray says which side of a face is seen: rays that pass just beside a face seen nearly edge on
+// meet its plane on both sides of him, and what is kept must not depend on which came first.
+void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, Face& face) const {
   face.body = hit.body, face.prim = hit.prim;
   face.brought.clear();
   const CompiledBody& body = scene_.bodies[hit.body];
+  LocalPoint middle = corner(body, hit.prim, 0);
+  for (int i = 1; i < corners_; ++i) middle.position += corner(body, hit.prim, i).position;
+  const Vec3 center = transform_point(body.world_from_local, middle.position / static_cast<double>(corners_));
+  Ray seen;
+  seen.direction = -way_to_viewer(viewer, center);
   for (int i = 0; i < corners_; ++i) {
-    Surface at = make_surface_at(scene_, ray, hit, corner(body, hit.prim, i));
-    const Color paint = at.diffuse;
-    Color& plain = face.plain[static_cast<size_t>(i)];
-    plain = scene_.ambient * at.ambient;
+    Surface at = make_surface_at(scene_, seen, hit, corner(body, hit.prim, i));
     at.diffuse = Color(1.0);
     const bool is_rounded = shading_ != Shading::flat && at.is_rounded && smooth_terminator_;
-    const Vec3 to_viewer = unit_of(Vec3(viewer) - viewer.w * at.position);
     for (const CompiledLight& light : scene_.lights) {
-      const LightSample sample = sample_light(scene_, light, at, to_viewer, is_rounded);
-      plain += sample.diffuse * paint + sample.specular;
+      const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_rounded);
       face.brought.push_back({sample.arriving, sample.diffuse, sample.specular, sample.is_lit});
     }
   }
 }
 
-const FaceLight::Face& FaceLight::face_for_eye(const Ray& ray, const Hit& hit, const Vec4& viewer) {
-  Face& face = kept_[mix64(static_cast<uint64_t>(hit.body) << 32 | hit.prim) & (kept_.size() - 1)];
-  if (face.body != hit.body || face.prim != hit.prim) light_corners(ray, hit, viewer, face);
-  return face;
-}
-
-bool FaceLight::is_plain(const Hit& hit) const {
-  const CompiledBody& body = scene_.bodies[hit.body];
-  if (body.kind != BodyKind::mesh && !(body.kind == BodyKind::box && shading_ == Shading::flat)) return false;
-  const Material& material = scene_.materials[body.material].source;
-  return std::holds_alternative<Color>(material.ambient) && std::holds_alternative<Color>(material.diffuse);
-}
-
-Color FaceLight::plain_color(const Ray& ray, const Hit& hit, const Vec4& viewer) {
-  corners_ = corners_of(scene_.bodies[hit.body]);
-  const Face& face = face_for_eye(ray, hit, viewer);
-  if (corners_ == 1) return face.plain[0];
-  return hit.b0 * face.plain[0] + hit.b1 * face.plain[1] + (1.0 - hit.b0 - hit.b1) * face.plain[2];
-}
-
-void FaceLight::look_at(const Ray& ray, const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary) {
+void FaceLight::look_at(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary) {
   const CompiledBody& body = scene_.bodies[hit.body];
   corners_ = corners_of(body);
   surface_ = &surface;
   find_weights(body, hit, surface);
   if (!is_primary) {
-    light_corners(ray, hit, viewer, other_);
+    light_corners(hit, viewer, other_);
     face_ = &other_;
     return;
   }
-  face_ = &face_for_eye(ray, hit, viewer);
+  Face& face = kept_[mix64(static_cast<uint64_t>(hit.body) << 32 | hit.prim) & (kept_.size() - 1)];
+  if (face.body != hit.body || face.prim != hit.prim) light_corners(hit, viewer, face);
+  face_ = &face;
 }
 
 LightSample FaceLight::sample(size_t light) const {

@@ -20,13 +20,7 @@ class FaceLight {
 
   // REQUIRES: flat or gouraud, and no plane. Lights the face of a hit for a viewer (xyz: his place, w 1; or the way to
   // him, w 0). Keeps what it has found for the viewer at `eye` faces ago, so that neighbouring pixels share it.
-  void look_at(const Ray& ray, const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary);
-
-  // Whether a face's light is all there is to a hit on it, whatever the place: a triangle, or a box's face lit flat, in
-  // plain paint. Where nothing casts a shadow and nothing mirrors, the rest of the surface need not be found.
-  bool is_plain(const Hit& hit) const;
-  // Its colour, ambient light with it. REQUIRES: is_plain(hit), and a primary ray.
-  Color plain_color(const Ray& ray, const Hit& hit, const Vec4& viewer);
+  void look_at(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary);
 
   // What light number i of the scene brings to the point last looked at; the way to the light is that of the point.
   LightSample sample(size_t light) const;
@@ -39,15 +33,13 @@ class FaceLight {
   };
   struct Face {
     uint32_t body = kNone, prim = kNone;
-    std::vector<Brought> brought;             // by corner, and by light
-    std::array<Color, kMostCorners> plain{};  // by corner: all of them in the material's paint, and ambient light
+    std::vector<Brought> brought;  // by corner, and by light
   };
 
   int corners_of(const CompiledBody& body) const;
   LocalPoint corner(const CompiledBody& body, uint32_t prim, int index) const;
-  const Face& face_for_eye(const Ray& ray, const Hit& hit, const Vec4& viewer);
   void find_weights(const CompiledBody& body, const Hit& hit, const Surface& surface);
-  void light_corners(const Ray& ray, const Hit& hit, const Vec4& viewer, Face& face) const;
+  void light_corners(const Hit& hit, const Vec4& viewer, Face& face) const;
 
   const CompiledScene& scene_;
   const Shading shading_;

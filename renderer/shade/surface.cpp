@@ -79,6 +79,14 @@ LocalPoint triangle_point(const CompiledMesh& mesh, uint32_t prim, double b0, do
   return out;
 }
 
+void turn_to(Surface& surface, const Vec3& looking) {
+  if (!(glm::dot(surface.geometric_normal, looking) < 0.0)) {
+    surface.geometric_normal = -surface.geometric_normal;
+    surface.from_outside = !surface.from_outside;
+  }
+  if (glm::dot(surface.normal, surface.geometric_normal) < 0.0) surface.normal = -surface.normal;
+}
+
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
   return make_surface_at(scene, ray, hit, local_point(scene.bodies[hit.body], ray, hit));
 }
@@ -93,9 +101,7 @@ Surface make_surface_at(const CompiledScene& scene, const Ray& ray, const Hit& h
   out.geometric_normal = unit_of(body.world_from_normal * local.geometric);
   out.normal = local.is_smooth ? unit_of(body.world_from_normal * local.shading) : out.geometric_normal;
   out.is_rounded = body.kind == BodyKind::mesh && !body.mesh->corner_normals.empty();
-  out.from_outside = glm::dot(out.geometric_normal, ray.direction) < 0.0;
-  if (!out.from_outside) out.geometric_normal = -out.geometric_normal;
-  if (glm::dot(out.normal, out.geometric_normal) < 0.0) out.normal = -out.normal;
+  turn_to(out, ray.direction);
   out.ambient = paint_color(out.material->source.ambient, body, local);
   out.diffuse = paint_color(out.material->source.diffuse, body, local);
   return out;

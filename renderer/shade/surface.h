@@ -2,6 +2,7 @@
 // Surface: a hit made ready for the light equation: place, normals turned to the viewer, material at the place.
 #pragma once
 
+#include "renderer/base/safe_length.h"
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 
@@ -20,6 +21,12 @@ struct Surface {
 };
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
+
+// Turns a surface to whoever looks this way at it.
+void turn_to(Surface& surface, const Vec3& looking);
+
+// The unit way from a place to a viewer: xyz his place and w 1, or xyz the way to him and w 0.
+inline Vec3 way_to_viewer(const Vec4& viewer, const Vec3& place) { return unit_of(Vec3(viewer) - viewer.w * place); }
 
 // A place on a body's surface, in its local space. Normals outward and of any length.
 struct LocalPoint {

@@ -238,13 +238,8 @@ class TileKernel {
       if constexpr (kCan.listens) listen(ray, path, hit, nullptr, sky);
       return;
     }
-    if constexpr (!kCan.mirrors && !kCan.shadows && !kCan.listens) {
-      if (spec_.shading != Shading::phong && face_light_.is_plain(hit)) {
-        radiance_[path.sample] += path.weight * face_light_.plain_color(ray, hit, viewer_of(ray, path));
-        return;
-      }
-    }
     Surface surface = make_surface(scene_, ray, hit);
+    if (job_.first_hits) turn_to(surface, -way_to_viewer(viewer_of(ray, path), surface.position));
     if (spec_.shading == Shading::flat) surface.normal = surface.geometric_normal, surface.is_rounded = false;
     const Color ambient = scene_.ambient * surface.ambient;
     radiance_[path.sample] += path.weight * ambient;
@@ -257,7 +252,7 @@ class TileKernel {
     const bool is_rounded = surface.is_rounded && spec_.terminator == Terminator::smooth;
     const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
     const bool is_by_face = spec_.shading != Shading::phong && surface.body->kind != BodyKind::plane;
-    if (is_by_face) face_light_.look_at(ray, hit, surface, viewer_of(ray, path), path.depth == 0);
+    if (is_by_face) face_light_.look_at(hit, surface, viewer_of(ray, path), path.depth == 0);
     for (size_t i = 0; i < scene_.lights.size(); ++i) {
       const CompiledLight& source = scene_.lights[i];
       const LightSample sample =

@@ -11,6 +11,7 @@
 
 #include "renderer/compile/tessellate.h"
 #include "renderer/geometry/sphere_mesh.h"
+#include "renderer/raster/raster_scene.h"
 #include "renderer/render/render.h"
 #include "renderer/scene/parse.h"
 #include "renderer/trace/isa.h"
@@ -121,6 +122,113 @@ TEST(Raster, GivesTheSameBytesOnAnyThreadsTilesAndCpu) {
   }
 }
 
+// Open squares that the eye sees nearly edge on, from a ten millionth to a thousandth of a radian over their planes,
+// lit on one side: rays pass beside them as often as through them.
+std::string fan_scene() {
+  std::string meshes, objects;
+  for (int i = 0; i < 24; ++i) {
+    const double turn = 0.26 * i, over = 1e-7 * std::pow(1.5, i);
+    const Vec3 along(std::cos(turn), std::sin(turn), 0.0), across(-along.y, along.x, 0.0);
+    std::string corners;
+    for (const auto& [u, z] : {std::pair{0.3, -3.0}, {1.2, -3.0}, {1.2, -5.0}, {0.3, -5.0}}) {
+      const Vec3 p = u * along + Vec3(0, 0, z) + over * across;
+      for (int k = 0; k < 3; ++k) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.17g", p[k]);
+        corners += (corners.empty() ? "" : ",") + std::string(text);
+      }
+    }
+    const std::string name = "\"m" + std::to_string(i) + "\"", comma = i > 0 ? "," : "";
+    meshes += comma + name + R"(: {"positions": [)" + corners + R"(], "indices": [0, 1, 2, 0, 2, 3]})";
+    objects += comma + R"({"type": "mesh", "mesh": )" + name + "}";
+  }
+  return R"({"image": {"width": 128, "height": 96}, "camera": {"position": [0, 0, 0], "target": [0, 0, -1], "fov_y_deg": 50},
+    "lights": [{"type": "directional", "direction": [-1, -0.3, -0.2], "intensity": 1.2}], "meshes": {)" +
+         meshes + R"(}, "objects": [)" + objects + "]}";
+}
+
+TEST(Raster, LightsFacesSeenEdgeOnTheSameWhoeverComesFirst) {
+  const std::string scene = fan_scene();
+  for (const auto shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+    const auto expected = draw(scene, by(Algorithm::zbuffer, shading, 16)).image->rgb;
+    EXPECT_EQ(draw(scene, by(Algorithm::warnock, shading, 16)).image->rgb, expected);
+    for (const auto& [threads, tile] : {std::pair{1, 4}, {3, 64}, {2, 8}, {1, 128}}) {
+      RenderOptions options;
+      options.tile_px = tile;
+      EXPECT_EQ(draw(scene, by(Algorithm::zbuffer, shading, 16), options, threads).image->rgb, expected) << tile;
+    }
+  }
+}
+
+TEST(Raster, HidesWhatLiesBehindAWallHoweverFlatlyItIsSeen) {
+  for (const char* over : {"1e-7", "1e-9", "1e-12"}) {
+    const std::string eye = std::string("[0, ") + over + ", 1]", target = std::string("[0, ") + over + ", 0]";
+    const std::string scene = R"({"image": {"width": 128, "height": 128}, "ambient": 1, "lights": [],
+      "background": {"bottom": 0, "top": 0},
+      "camera": {"position": )" +
+                              eye + R"(, "target": )" + target + R"(, "up": [0.3, 1, 0], "fov_y_deg": 60},
+      "materials": {"red": {"ambient": [1, 0, 0], "diffuse": 0}, "green": {"ambient": [0, 1, 0], "diffuse": 0}},
+      "objects": [{"type": "box", "min": [-2, -0.5, -3], "max": [2, 0, -1], "material": "red"},
+                  {"type": "box", "min": [-2, -2, -0.6], "max": [2, 2, -0.5], "material": "green"}]})";
+    for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer, Algorithm::warnock}) {
+      const auto image = draw(scene, by(algorithm, Shading::phong, 8)).image;
+      for (size_t i = 0; i < image->rgb.size(); i += 3) ASSERT_EQ(image->rgb[i], 0.0f) << over << ", " << i / 3;
+    }
+  }
+}
+
+TEST(Raster, StopsPreparingWhenItIsCancelledAndSaysWhatItCannotHold) {
+  std::string men;
+  for (int i = 0; i < 60; ++i)
+    men += (i > 0 ? "," : "") +
+           std::string(R"({"type": "chess_piece", "piece": "queen", "detail": 96, "position": [)") +
+           std::to_string(i % 8) + ", 0, " + std::to_string(i / 8) + "]}";
+  const auto parsed = parse_scene(R"({"image": {"width": 320, "height": 200}, "objects": [)" + men + "]}", Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(2);
+  const auto scene = compile_scene(parsed->scene, pool);
+  for (const auto algorithm : {Algorithm::zbuffer, Algorithm::warnock, Algorithm::roberts}) {
+    View view = parsed->view;
+    view.render.algorithm = algorithm;
+    const auto render = Render::start(pool, Priority::normal, scene, plan_view(*scene, view));
+    render->cancel();
+    ASSERT_TRUE(render->wait_ms(1e12));
+    EXPECT_EQ(render->progress().state, RenderState::cancelled) << render->progress().error;
+    EXPECT_TRUE(render->progress().error.empty());
+  }
+  const std::string many = R"({"type": "chess_position", "detail": 512})";
+  const auto large = parse_scene(R"({"objects": [)" + many + "," + many + "]}", Limits{});
+  ASSERT_TRUE(large);
+  View view = large->view;
+  view.render.algorithm = Algorithm::zbuffer;
+  const auto compiled = compile_scene(large->scene, pool);
+  ASSERT_GT(compiled->plan.triangles_instanced, kMostRasterTriangles);
+  const auto render = Render::start(pool, Priority::normal, compiled, plan_view(*compiled, view));
+  ASSERT_TRUE(render->wait_ms(1e12));
+  EXPECT_EQ(render->progress().state, RenderState::failed);
+  EXPECT_NE(render->progress().error.find("8000000 triangles"), std::string::npos) << render->progress().error;
+}
+
+TEST(Tessellation, CutsManySpheresCoarserAndSaysSo) {
+  std::string balls;
+  for (int i = 0; i < 400; ++i)
+    balls += (i > 0 ? "," : "") + std::string(R"({"type": "sphere", "radius": 1, "center": [)") + std::to_string(i) +
+             ", 0, 0]}";
+  const auto parsed = parse_scene(R"({"camera": {"type": "orthographic", "position": [0, 0, 9], "height": 2},
+    "render": {"tessellate": true, "chord_error_px": 0.01}, "objects": [)" +
+                                      balls + "]}",
+                                  Limits{});
+  ASSERT_TRUE(parsed);
+  TilePool pool(2);
+  const auto scene = compile_scene(parsed->scene, pool);
+  const ViewPlan plan = plan_view(*scene, parsed->view);
+  EXPECT_LE(plan.plan.triangles_instanced, kMostSphereTriangles);
+  EXPECT_GT(plan.plan.triangles_instanced, kMostSphereTriangles / 4) << "no coarser than need be";
+  EXPECT_EQ(drawn_scene(scene, plan, pool)->plan.triangles_instanced, plan.plan.triangles_instanced);
+  ASSERT_EQ(plan.plan.warnings.size(), 1u);
+  EXPECT_EQ(plan.plan.warnings[0].code, "coarser_spheres");
+}
+
 TEST(Raster, GoesWhereTheErrorIsAndByRulesOnErrorAndTime) {
   const auto adaptive = [](Algorithm algorithm) {
     return draw(kScene, [&](View& view) {
@@ -227,10 +335,16 @@ TEST(Shading, FlatLightsAFaceOnceAtItsMiddle) {
 
 TEST(Shading, GouraudIsLinearBetweenTheCorners) {
   for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
-    const auto image = draw(kTriangle, by(algorithm, Shading::gouraud)).image;
-    // All corners are sqrt 2 from the origin: no highlight in the middle.
-    for (const auto& [x, y] : {std::pair{55, 145}, {99, 145}, {55, 101}, {70, 120}})
-      EXPECT_NEAR(at(*image, x, y), 1.0 / std::sqrt(3.0), 1e-6) << x << ", " << y;
+    std::string scene = kTriangle;
+    const std::string over_middle = R"("position": [0, 0, 1])";
+    scene.replace(scene.find(over_middle), over_middle.size(), R"("position": [-1, -1, 1])");
+    const auto image = draw(scene, by(algorithm, Shading::gouraud)).image;
+    // The corners see the light at cosines of 1, and twice of 1 / sqrt 5: lit the more the nearer to the first.
+    const double near = 1.0, far = 1.0 / std::sqrt(5.0);
+    for (const auto& [x, y] : {std::pair{55, 145}, {95, 145}, {55, 105}, {70, 120}}) {
+      const double b = (x + 0.5 - 50.0) / 100.0, c = (150.0 - y - 0.5) / 100.0;
+      EXPECT_NEAR(at(*image, x, y), (1.0 - b - c) * near + (b + c) * far, 8e-3) << x << ", " << y;
+    }
   }
 }
 
@@ -248,13 +362,19 @@ TEST(Shading, GouraudOnABoxsFaceIsBilinear) {
   const char* scene = R"({
     "image": {"width": 100, "height": 100}, "ambient": 0, "attenuation": {"mode": "none"},
     "camera": {"type": "orthographic", "position": [0, 0, 5], "target": [0, 0, 0], "height": 2},
-    "lights": [{"type": "point", "position": [-1, -1, 1], "intensity": 1}],
+    "lights": [{"type": "point", "position": [-1, -0.5, 1], "intensity": 1}],
     "objects": [{"type": "box", "min": [-1, -1, -1], "max": [1, 1, 0], "material": {"diffuse": 1}}]})";
-  const double near = 1.0, side = 1.0 / std::sqrt(5.0), far = 1.0 / 3.0;  // cosines at the corners
+  const auto cosine = [](double x, double y) {
+    return 1.0 / std::sqrt(1.0 + (x + 1) * (x + 1) + (y + 0.5) * (y + 0.5));
+  };
   for (const auto algorithm : {Algorithm::raytrace, Algorithm::zbuffer}) {
     const auto image = draw(scene, by(algorithm, Shading::gouraud)).image;
-    EXPECT_NEAR(at(*image, 50, 50), 0.25 * (near + 2.0 * side + far), 6e-3);
-    EXPECT_NEAR(at(*image, 25, 75), 0.5625 * near + 0.375 * side + 0.0625 * far, 8e-3);
+    for (const auto& [px, py] : {std::pair{50, 50}, {25, 75}, {75, 75}, {25, 25}, {75, 25}}) {
+      const double u = (px + 0.5) / 100.0, v = (99.5 - py) / 100.0;
+      const double low = (1.0 - u) * cosine(-1, -1) + u * cosine(1, -1),
+                   high = (1.0 - u) * cosine(-1, 1) + u * cosine(1, 1);
+      EXPECT_NEAR(at(*image, px, py), (1.0 - v) * low + v * high, 6e-3) << px << ", " << py;
+    }
   }
 }
 

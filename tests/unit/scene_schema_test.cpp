@@ -98,6 +98,12 @@ TEST(Schema, StatesTheDefaultsThatHold) {
   EXPECT_EQ(a.view, b.view) << spelt_out;
 }
 
+TEST(Schema, OffersEveryMethodAndShading) {
+  const std::string schema = scene_schema_json(Limits{});
+  for (const char* word : {"raytrace", "zbuffer", "warnock", "roberts", "flat", "gouraud", "phong"})
+    EXPECT_NE(schema.find("\"" + std::string(word) + "\""), std::string::npos) << word;
+}
+
 TEST(Schema, NamesNothingThatThisReleaseCannotDo) {
   EXPECT_EQ(scene_schema_json(Limits{}).find("asset"), std::string::npos);
 }

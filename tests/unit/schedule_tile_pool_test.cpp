@@ -386,5 +386,31 @@ TEST(TilePool, StandsManyThreadsAddingWakingAndWaiting) {
   done.wait();
 }
 
+TEST(TilePool, HandsOnWhatALoopThrowsOnceNoThreadIsInItAnyMore) {
+  TilePool pool(3);
+  for (const int64_t bad : {0, 7, 499}) {
+    std::atomic<int> inside{0}, done{0};
+    const auto body = [&](int64_t i) {
+      ++inside;
+      const bool is_bad = i == bad;
+      if (!is_bad) ++done;
+      --inside;
+      if (is_bad) throw std::runtime_error("index " + std::to_string(i));
+    };
+    try {
+      pool.parallel_for(500, Priority::normal, body);
+      FAIL() << "it should have thrown";
+    } catch (const std::runtime_error& e) {
+      EXPECT_EQ(e.what(), "index " + std::to_string(bad));
+    }
+    EXPECT_EQ(inside, 0);
+    EXPECT_LE(done, 499);
+  }
+  std::atomic<bool> stop{true};
+  EXPECT_THROW(pool.parallel_for(
+                   10, Priority::normal, [](int64_t) { FAIL(); }, &stop),
+               Stopped);
+}
+
 }  // namespace
 }  // namespace tilelight

@@ -68,7 +68,7 @@ std::vector<uint64_t> DrawnScene::ids(Algorithm algorithm) const {
           return kSubpixels * Vec2(px + p.x, py + p.y);
         },
         *window);
-    std::vector<const RasterPrim*> prims;
+    std::span<const RasterPrim* const> prims;
     if (warnock) {
       prims = warnock->draw(x, y, {window.get(), 1});
     } else {

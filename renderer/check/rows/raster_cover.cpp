@@ -84,7 +84,7 @@ Cover cover_of(const DrawnScene& drawn, int layers, const Place& place) {
   drawn.pool().parallel_for(std::ssize(parts), Priority::batch, [&](int64_t i) {
     const int x = static_cast<int>(i) % across, y = static_cast<int>(i) / across;
     const auto window = std::make_unique<VisibleWindow>();
-    const std::vector<const RasterPrim*> prims = raster.in_window(x, y);
+    const auto prims = raster.in_window(x, y);
     Random random(static_cast<uint64_t>(i) + 1000);
     Cover& part = parts[static_cast<size_t>(i)];
     for (int layer = 0; layer < layers; ++layer) {

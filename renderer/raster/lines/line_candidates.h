@@ -21,6 +21,6 @@ std::vector<Candidate> edge_candidates(const LineBodies& bodies, uint32_t body, 
 
 // The segments in which faces of two bodies cross, or those of a body and a plane: by lower and higher body.
 std::vector<Candidate> junction_candidates(const LineBodies& bodies, const LineView& view, TilePool& pool,
-                                           bool with_hidden);
+                                           bool with_hidden, const std::atomic<bool>* stop);
 
 }  // namespace tilelight::lines

@@ -7,11 +7,12 @@
 
 namespace tilelight {
 
-LineDrawing draw_lines(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, bool with_hidden) {
+LineDrawing draw_lines(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, bool with_hidden,
+                       const std::atomic<bool>* stop) {
   constexpr double kLeastPx = 1e-6;  // edges that point to the eye
   const StandardFloats floats;
   const lines::LineView view(plan);
-  const lines::LinePieces found = lines::find_line_pieces(scene, view, pool, with_hidden);
+  const lines::LinePieces found = lines::find_line_pieces(scene, view, pool, with_hidden, stop);
   const Vec2 size(view.width(), view.height());
   std::vector<DrawnLine> drawn;
   for (const lines::LinePiece& piece : found.pieces) {

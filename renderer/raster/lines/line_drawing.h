@@ -42,8 +42,9 @@ struct LineDrawing {
   LineWork work;
 };
 
-// Spheres are not drawn: they enter as meshes or not at all.
-LineDrawing draw_lines(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, bool with_hidden);
+// Spheres are not drawn: they enter as meshes or not at all. Throws Stopped soon after `stop` is set.
+LineDrawing draw_lines(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool, bool with_hidden,
+                       const std::atomic<bool>* stop = nullptr);
 
 constexpr double kVisibleLinePx = 1.5, kHiddenLinePx = 1.0;  // widths
 constexpr double kDashPx = 6.0, kDashGapPx = 4.0;            // of hidden lines

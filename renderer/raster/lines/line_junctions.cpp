@@ -145,21 +145,24 @@ std::vector<std::pair<uint32_t, uint32_t>> close_bodies(const LineBodies& bodies
 }  // namespace
 
 std::vector<Candidate> junction_candidates(const LineBodies& bodies, const LineView& view, TilePool& pool,
-                                           bool with_hidden) {
+                                           bool with_hidden, const std::atomic<bool>* stop) {
   const Junctions junctions(bodies, view, with_hidden);
   const auto pairs = close_bodies(bodies, view.touch());
   const auto bodies_and_planes = static_cast<int64_t>(bodies.finite.size() * bodies.planes.size());
   const auto pair_count = static_cast<int64_t>(pairs.size());
   std::vector<std::vector<Candidate>> found(pair_count + bodies_and_planes);
-  pool.parallel_for(static_cast<int64_t>(found.size()), Priority::normal, [&](int64_t i) {
-    if (i < pair_count) {
-      found[i] = junctions.of_bodies(pairs[i].first, pairs[i].second);
-    } else {
-      const auto at = static_cast<size_t>(i - pair_count);
-      found[i] = junctions.of_plane(static_cast<uint32_t>(at % bodies.finite.size()),
-                                    bodies.planes[at / bodies.finite.size()]);
-    }
-  });
+  pool.parallel_for(
+      static_cast<int64_t>(found.size()), Priority::normal,
+      [&](int64_t i) {
+        if (i < pair_count) {
+          found[i] = junctions.of_bodies(pairs[i].first, pairs[i].second);
+        } else {
+          const auto at = static_cast<size_t>(i - pair_count);
+          found[i] = junctions.of_plane(static_cast<uint32_t>(at % bodies.finite.size()),
+                                        bodies.planes[at / bodies.finite.size()]);
+        }
+      },
+      stop);
   std::vector<Candidate> out;
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
   return out;

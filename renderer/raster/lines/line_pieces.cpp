@@ -109,14 +109,17 @@ class PieceFinder {
 };
 
 std::vector<Candidate> all_candidates(const LineBodies& bodies, const LineView& view, TilePool& pool, bool with_hidden,
-                                      LineWork& work) {
+                                      LineWork& work, const std::atomic<bool>* stop) {
   std::vector<std::vector<Candidate>> by_body(bodies.finite.size());
-  pool.parallel_for(static_cast<int64_t>(by_body.size()), Priority::normal, [&](int64_t i) {
-    if (bodies.finite[i].shape) by_body[i] = edge_candidates(bodies, static_cast<uint32_t>(i), view, with_hidden);
-  });
+  pool.parallel_for(
+      static_cast<int64_t>(by_body.size()), Priority::normal,
+      [&](int64_t i) {
+        if (bodies.finite[i].shape) by_body[i] = edge_candidates(bodies, static_cast<uint32_t>(i), view, with_hidden);
+      },
+      stop);
   std::vector<Candidate> out;
   for (const auto& part : by_body) out.insert(out.end(), part.begin(), part.end());
-  const std::vector<Candidate> junctions = junction_candidates(bodies, view, pool, with_hidden);
+  const std::vector<Candidate> junctions = junction_candidates(bodies, view, pool, with_hidden, stop);
   work.junction_segments = static_cast<int64_t>(junctions.size());
   out.insert(out.end(), junctions.begin(), junctions.end());
   // Of lines that coincide the first is drawn: the two sides of a flat box have their edges in one place.
@@ -126,7 +129,8 @@ std::vector<Candidate> all_candidates(const LineBodies& bodies, const LineView& 
 
 }  // namespace
 
-LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, TilePool& pool, bool with_hidden) {
+LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, TilePool& pool, bool with_hidden,
+                            const std::atomic<bool>* stop) {
   constexpr int64_t kChunk = 64;  // lines; enough work for a thread to come for
   LinePieces out;
   const LineBodies bodies = place_bodies(scene, view, pool);
@@ -135,7 +139,7 @@ LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, Ti
     out.work.faces += static_cast<int64_t>(body.shape->faces.size());
     out.work.edges += static_cast<int64_t>(body.shape->edges.size());
   }
-  out.candidates = all_candidates(bodies, view, pool, with_hidden, out.work);
+  out.candidates = all_candidates(bodies, view, pool, with_hidden, out.work, stop);
   const LineOccluders occluders(bodies, view);
   out.work.convex_bodies = occluders.whole_bodies();
 
@@ -146,10 +150,13 @@ LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, Ti
   const PieceFinder finder(out.candidates, occluders, view, with_hidden);
   const auto count = static_cast<int64_t>(out.candidates.size());
   std::vector<Part> parts((count + kChunk - 1) / kChunk);
-  pool.parallel_for(static_cast<int64_t>(parts.size()), Priority::normal, [&](int64_t p) {
-    for (int64_t i = p * kChunk; i < std::min(count, (p + 1) * kChunk); ++i)
-      parts[p].tests += finder.find(static_cast<uint32_t>(i), parts[p].pieces);
-  });
+  pool.parallel_for(
+      static_cast<int64_t>(parts.size()), Priority::normal,
+      [&](int64_t p) {
+        for (int64_t i = p * kChunk; i < std::min(count, (p + 1) * kChunk); ++i)
+          parts[p].tests += finder.find(static_cast<uint32_t>(i), parts[p].pieces);
+      },
+      stop);
   for (const Part& part : parts) {
     out.pieces.insert(out.pieces.end(), part.pieces.begin(), part.pieces.end());
     out.work.occlusion_tests += part.tests;

@@ -18,6 +18,7 @@ struct LinePieces {
   LineWork work;                  // all but drawn_lines
 };
 
-LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, TilePool& pool, bool with_hidden);
+LinePieces find_line_pieces(const CompiledScene& scene, const LineView& view, TilePool& pool, bool with_hidden,
+                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace tilelight::lines
