@@ -38,7 +38,7 @@ std::string grid(const Comparison& c, const std::string& ending, const HasPictur
   std::string out, method;
   for (const CompareRow& row : c.rows) {
     if (!has_picture(row)) continue;
-    if (row.method != method) out += (method.empty() ? "" : "</div>\n") + std::string("<div class=\"pictures\">\n");
+    if (row.method != method) out += (method.empty() ? "" : "</div>\n") + std::string("<div class=\"pictures smooth\">\n");
     method = row.method;
     out += figure(file_stem(row) + ending, name_of(row));
   }
@@ -48,7 +48,7 @@ std::string grid(const Comparison& c, const std::string& ending, const HasPictur
 std::string pictures(const Comparison& c) {
   const std::string caption =
       "The whole light model by rays, " + std::to_string(c.reference_samples) + " samples a pixel";
-  return "<div class=\"pictures\">\n" + figure("reference.png", caption) + "</div>\n" +
+  return "<div class=\"pictures smooth\">\n" + figure("reference.png", caption) + "</div>\n" +
          grid(c, ".png", [](const CompareRow&) { return true; });
 }
 
@@ -72,7 +72,7 @@ std::string works(const Comparison& c) {
     for (const MethodWork::Count& count : w.work.counts) table.add({count.name, count_text(count.value)});
     out += table.html();
     if (w.work.picture)
-      out += "<div class=\"pictures\">\n" + figure(w.method + "-work.png", w.work.caption) + "</div>\n";
+      out += "<div class=\"pictures smooth\">\n" + figure(w.method + "-work.png", w.work.caption) + "</div>\n";
   }
   return out;
 }

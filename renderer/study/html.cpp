@@ -17,7 +17,7 @@ th { text-align: right; font-weight: 600; border-bottom: 2px solid #888; } th:fi
 tr.front td { background: #eef6ee; } tr.miss td { background: #fbeeee; } tr.own td { font-weight: 600; }
 .wide { overflow-x: auto; } svg { max-width: 100%; height: auto; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); gap: 1rem; }
-.pictures + .pictures { margin-top: 1rem; } figure { margin: 0; } img { width: 100%; image-rendering: pixelated; background: #000; } figcaption { font-size: 13px; color: #555; }
+.smooth img { image-rendering: auto; } .pictures + .pictures { margin-top: 1rem; } figure { margin: 0; } img { width: 100%; image-rendering: pixelated; background: #000; } figcaption { font-size: 13px; color: #555; }
 )";
 
 std::string row(const Cells& cells, const std::string& tag, const std::string& css = "") {
