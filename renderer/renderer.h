@@ -15,6 +15,7 @@
 #include "renderer/film/film.h"           // IWYU pragma: export
 #include "renderer/film/heat_map.h"       // IWYU pragma: export
 #include "renderer/film/image_io.h"       // IWYU pragma: export
+#include "renderer/measure/rounding.h"    // IWYU pragma: export
 #include "renderer/render/explain.h"      // IWYU pragma: export
 #include "renderer/render/predict.h"      // IWYU pragma: export
 #include "renderer/render/render.h"       // IWYU pragma: export

@@ -55,8 +55,8 @@ Result<std::string> encode_result(const Render& render, double exposure_stops, I
   return encode_image(*render.image(), exposure_stops, format);
 }
 
-ExitCode write_results(const Render& render, const ViewPlan& plan, const std::string& scene_id,
-                       const RenderArguments& arguments) {
+ExitCode write_results(const Render& render, const ParsedScene& parsed, const CompiledScene& compiled,
+                       const ViewPlan& plan, const RenderArguments& arguments) {
   const auto format = image_format_from_extension(arguments.output);
   const auto bytes = encode_result(render, plan.view.image.exposure, *format);
   if (!bytes) return complain(kFailed, bytes.error().detail);
@@ -74,7 +74,8 @@ ExitCode write_results(const Render& render, const ViewPlan& plan, const std::st
       return complain(kFailed, written.error().detail);
   }
   if (arguments.report.empty()) return kOk;
-  const ReportIdentity identity{TILELIGHT_VERSION, scene_id, image_hash(*render.image())};
+  const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id, image_hash(*render.image()),
+                                find_rounding(parsed.scene, compiled, plan)};
   const std::string report = report_json(render.report(), plan.plan, identity) + "\n";
   if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
   return kOk;
@@ -114,7 +115,7 @@ ExitCode run_render(const SceneText& source, const RenderArguments& arguments) {
   line.clear();
   if (end.state == RenderState::cancelled) return complain(kInterrupted, "interrupted; nothing was written");
   if (end.state == RenderState::failed) return complain(kFailed, "the render failed: " + end.error);
-  const ExitCode code = write_results(*render, plan, std::get<ParsedScene>(parsed).scene_id, arguments);
+  const ExitCode code = write_results(*render, std::get<ParsedScene>(parsed), *compiled, plan, arguments);
   if (code == kOk && line.is_terminal()) print_summary(arguments, plan, *render);
   return code;
 }

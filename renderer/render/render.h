@@ -116,6 +116,7 @@ class Render {
 // What the render cannot know of itself. Empty: not known, null in the report.
 struct ReportIdentity {
   std::string version, scene_id, image_hash;
+  std::optional<double> rounding = {};  // as find_rounding has it
 };
 // SHA-256 of the linear image: floats as they lie in memory, little-endian, RGB, row by row.
 std::string image_hash(const Image& image);

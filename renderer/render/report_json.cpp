@@ -15,9 +15,10 @@ constexpr double kByteRmse = 1.1321e-3;  // of rounding to 8 bits: 1 / (255 sqrt
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 // Where the error of the last point comes from, rmse but for the bound.
-Json components_json(const ReportPoint& p) {
+Json components_json(const ReportPoint& p, const std::optional<double>& rounding) {
   return {{"sampling", p.error.is_known ? Json(p.error.rmse) : Json(nullptr)},
           {"truncation_bound", p.truncation_bound < 0.0 ? Json(nullptr) : Json(p.truncation_bound)},
+          {"rounding", rounding ? Json(*rounding) : Json(nullptr)},
           {"quantisation", kByteRmse}};
 }
 
@@ -56,20 +57,21 @@ std::string report_json(const RenderReport& report, const Plan& plan, const Repo
                       {"lights_on_hits", p.lights_on_hits}});
   }
   const bool has_points = !report.points.empty();
-  const Json out = {{"points", points},
-                    {"stop", report.stop},
-                    {"adaptive", report.adaptive},
-                    {"passes", report.passes},
-                    {"components", has_points ? components_json(report.points.back()) : Json(nullptr)},
-                    {"efficiency", has_points ? efficiency_json(report.points.back()) : Json(nullptr)},
-                    {"stiffness", Json::parse(plan_json(plan)).at("stiffness")},
-                    {"image_hash", text_or_null(identity.image_hash)},
-                    {"version", text_or_null(identity.version)},
-                    {"scene_sha256", text_or_null(identity.scene_id)},
-                    {"seed", report.seed},
-                    {"threads", report.threads},
-                    {"kernel", plan.kernel},
-                    {"isa", plan.isa}};
+  const Json out = {
+      {"points", points},
+      {"stop", report.stop},
+      {"adaptive", report.adaptive},
+      {"passes", report.passes},
+      {"components", has_points ? components_json(report.points.back(), identity.rounding) : Json(nullptr)},
+      {"efficiency", has_points ? efficiency_json(report.points.back()) : Json(nullptr)},
+      {"stiffness", Json::parse(plan_json(plan)).at("stiffness")},
+      {"image_hash", text_or_null(identity.image_hash)},
+      {"version", text_or_null(identity.version)},
+      {"scene_sha256", text_or_null(identity.scene_id)},
+      {"seed", report.seed},
+      {"threads", report.threads},
+      {"kernel", plan.kernel},
+      {"isa", plan.isa}};
   return out.dump();
 }
 

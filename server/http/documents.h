@@ -13,7 +13,8 @@ namespace tilelight::server {
 
 std::string job_json(const JobRecord& record);
 // image_hash: empty where it is not known.
-std::string report_document(const JobRecord& record, const std::string& image_hash);
+std::string report_document(const JobRecord& record, const std::string& image_hash,
+                            const std::optional<double>& rounding = {});
 std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [...]}, without plans and reports
 // The data of events, each on one line.
 std::string state_document(const WorkStatus& status);

@@ -70,8 +70,9 @@ Json brief_json(const JobRecord& record) {
 
 }  // namespace
 
-std::string report_document(const JobRecord& record, const std::string& image_hash) {
-  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash};
+std::string report_document(const JobRecord& record, const std::string& image_hash,
+                            const std::optional<double>& rounding) {
+  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 

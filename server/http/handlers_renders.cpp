@@ -124,6 +124,25 @@ Reply delete_render(Services& services, const Request& request) {
   return empty_response(204);
 }
 
+namespace {
+
+// Of a render that is done, on the pool; none where it cannot be told, or not now.
+std::optional<double> rounding_of(Services& services, const Request& request, RenderWork& work) {
+  const auto slot = services.waits.take(request.client);
+  if (!slot) return std::nullopt;
+  return work.final_rounding([&]() -> std::optional<double> {
+    const RenderRequest& order = work.request();
+    const auto compiled = wait_compiled(services, request, order.scene, Priority::normal);
+    if (!compiled) return std::nullopt;
+    const auto find = [&] {
+      return find_rounding(order.scene->parsed.scene, **compiled, plan_view(**compiled, order.view));
+    };
+    return services.pool.submit(Priority::interactive, find).get();
+  });
+}
+
+}  // namespace
+
 Reply get_render_report(Services& services, const Request& request) {
   const auto record = services.jobs.find(request.args[0]);
   if (!record) return no_such_render();
@@ -138,7 +157,8 @@ Reply get_render_report(Services& services, const Request& request) {
     response.body = report_svg(report);
   } else {
     const WorkPtr work = services.jobs.work(request.args[0]);
-    response.body = report_document(*record, work ? work->final_image_hash() : std::string());
+    const auto rounding = work ? rounding_of(services, request, *work) : std::nullopt;
+    response.body = report_document(*record, work ? work->final_image_hash() : std::string(), rounding);
   }
   response.with("Vary", "Accept").with("Cache-Control", "no-cache");
   return response;

@@ -118,6 +118,17 @@ std::string RenderWork::final_image_hash() {
   return image_hash_ = std::move(hash);
 }
 
+std::optional<double> RenderWork::final_rounding(const std::function<std::optional<double>()>& find) {
+  std::unique_lock lock(mutex_);
+  if (rounding_) return *rounding_;
+  if (status_.state != JobState::done) return std::nullopt;
+  lock.unlock();
+  const std::optional<double> found = find();
+  lock.lock();
+  rounding_ = found;
+  return found;
+}
+
 void RenderWork::drop_image() {
   const std::lock_guard lock(mutex_);
   picture_ = {};

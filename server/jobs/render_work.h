@@ -53,6 +53,9 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   // image_hash() of the final image, worked out once; empty before, and where nobody asked before drop_image().
   std::string final_image_hash();
 
+  // What `find` tells of the final image, asked for once; none before the end. No lock is held while it looks.
+  std::optional<double> final_rounding(const std::function<std::optional<double>()>& find);
+
   // Forgets the linear image and the lines; formats encoded so far stay.
   void drop_image();
   int64_t result_bytes() const;
@@ -102,8 +105,9 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
   WorkStatus status_;  // progress and report are filled in from render_ while there is one
   std::shared_ptr<Render> render_;
   Picture picture_;
-  std::string lines_svg_;   // beside picture_
-  std::string image_hash_;  // after the end
+  std::string lines_svg_;                          // beside picture_
+  std::string image_hash_;                         // after the end
+  std::optional<std::optional<double>> rounding_;  // once it was found, or found that it cannot be
   bool keeps_film_;
   std::shared_ptr<const ExposedFilm> film_;  // after the end
   std::map<ImageFormat, Encoding> encodings_;

@@ -64,6 +64,9 @@ TEST_F(Accuracy, TheFinalReportSaysWhatWasRenderedAndByWhat) {
   const double rmse = last.at("rmse"), seconds = 1e-3 * last.at("elapsed_ms").get<double>();
   EXPECT_NEAR(report.at("efficiency").get<double>() * rmse * rmse * seconds, 1.0, 1e-9);
   EXPECT_EQ(report.at("components").at("sampling"), rmse);
+  const double rounding = report.at("components").at("rounding");
+  EXPECT_GT(rounding, 0.0) << "the film keeps floats";
+  EXPECT_LT(rounding, 1e-6);
 }
 
 TEST_F(Accuracy, TheReportReplaysItExactly) {
