@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <optional>
+#include <stdexcept>
 
 #include "renderer/cli/commands.h"
 #include "renderer/cli/complain.h"
@@ -72,7 +74,13 @@ ExitCode run_compare(const SceneText& source, const CompareArguments& arguments)
   options.on_progress = [&](const std::string& what, double done) {
     line.show(std::to_string(static_cast<int>(100.0 * done)) + " %   " + what);
   };
-  const auto comparison = compare_methods(document, source.name, pool, options);
+  std::optional<Comparison> comparison;
+  try {
+    comparison = compare_methods(document, source.name, pool, options);
+  } catch (const std::runtime_error& error) {
+    line.clear();
+    return complain(kFailed, error.what());
+  }
   line.clear();
   if (!comparison) return complain(kInterrupted, "interrupted; nothing was written");
   const ExitCode code = write_files(files_of(*comparison), arguments.output);

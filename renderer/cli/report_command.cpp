@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <optional>
+#include <stdexcept>
 
 #include "renderer/cli/commands.h"
 #include "renderer/cli/complain.h"
@@ -59,7 +61,13 @@ ExitCode run_report(const SceneText& source, const ReportArguments& arguments) {
   options.on_progress = [&](const std::string& what, double done) {
     line.show(std::to_string(static_cast<int>(100.0 * done)) + " %   " + what);
   };
-  const auto study = make_study(document, source.name, pool, options);
+  std::optional<Study> study;
+  try {
+    study = make_study(document, source.name, pool, options);
+  } catch (const std::runtime_error& error) {
+    line.clear();
+    return complain(kFailed, error.what());
+  }
   line.clear();
   if (!study) return complain(kInterrupted, "interrupted; nothing was written");
   const ExitCode code = write_files(files_of(*study), arguments.output);

@@ -17,9 +17,14 @@ void paint(Image& image, int x, int y, const Color& color) {
   for (int c = 0; c < 3; ++c) at[c] = static_cast<float>(color[c]);
 }
 
+// Takes whole numbers and others.
+auto adder(MethodWork& out) {
+  return [&out](const char* name, auto value) { out.counts.push_back({name, static_cast<double>(value)}); };
+}
+
 void add_set_up(const RasterScene& raster, MethodWork& out) {
   const RasterCounts& counts = raster.counts();
-  const auto add = [&](const char* name, int64_t value) { out.counts.push_back({name, static_cast<double>(value)}); };
+  const auto add = adder(out);
   add("triangles of the scene", counts.triangles);
   add("turned away from the eye", counts.turned_away);
   add("outside of the picture, or on no sample's grid", counts.outside);
@@ -52,17 +57,18 @@ MethodWork zbuffer_work(const RasterScene& raster) {
       });
     }
   }
-  out.counts.push_back({"coverings of samples", static_cast<double>(coverings)});
-  out.counts.push_back({"coverings of a covered sample, mean",
-                        static_cast<double>(coverings) / static_cast<double>(std::max<int64_t>(1, covered))});
-  out.counts.push_back({"coverings of a sample, most", static_cast<double>(most)});
+  const auto add = adder(out);
+  add("coverings of samples", coverings);
+  add("coverings of a covered sample, mean",
+      static_cast<double>(coverings) / static_cast<double>(std::max<int64_t>(1, covered)));
+  add("coverings of a sample, most", most);
   return out;
 }
 
 MethodWork roberts_work(const LineDrawing& drawing) {
   MethodWork out;
   const LineWork& work = drawing.work;
-  const auto add = [&](const char* name, int64_t value) { out.counts.push_back({name, static_cast<double>(value)}); };
+  const auto add = adder(out);
   add("bodies that hide as one convex body", work.convex_bodies);
   add("faces", work.faces);
   add("edges looked at", work.edges);
@@ -90,15 +96,15 @@ MethodWork warnock_work(const RasterScene& raster, const WarnockScene& subdivisi
       "Warnock's windows: black where nothing is, green where one primitive is alone, blue where one surrounds the "
       "window in front of all others, red where pixels had to be decided one by one";
   const double pixels = static_cast<double>(raster.plan().view.image.width) * raster.plan().view.image.height;
-  const auto add = [&](const char* name, double value) { out.counts.push_back({name, value}); };
-  add("windows looked at", static_cast<double>(counts.windows));
-  add("windows divided", static_cast<double>(counts.divided));
-  add("windows empty", static_cast<double>(counts.empty));
-  add("windows of one primitive", static_cast<double>(counts.single));
-  add("windows surrounded", static_cast<double>(counts.surrounded));
-  add("pixels decided one by one", static_cast<double>(counts.pixels));
+  const auto add = adder(out);
+  add("windows looked at", counts.windows);
+  add("windows divided", counts.divided);
+  add("windows empty", counts.empty);
+  add("windows of one primitive", counts.single);
+  add("windows surrounded", counts.surrounded);
+  add("pixels decided one by one", counts.pixels);
   add("deepest subdivision", counts.depth);
-  add("looks at a primitive in a window", static_cast<double>(counts.looks));
+  add("looks at a primitive in a window", counts.looks);
   add("work saved: part of the pixels that lie in easy windows, %",
       100.0 * static_cast<double>(counts.settled_pixels) / pixels);
   return out;

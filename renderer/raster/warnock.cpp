@@ -156,7 +156,7 @@ WarnockScene::WarnockScene(const RasterScene& raster, TilePool& pool, const std:
   };
   std::vector<Node> level;
   level.push_back({image, raster.all()});
-  for (; !level.empty(); ++window_depth_) {
+  while (!level.empty()) {
     std::vector<std::vector<Node>> parts(level.size());
     pool.parallel_for(
         static_cast<int64_t>(level.size()), Priority::normal,
@@ -188,8 +188,8 @@ std::span<const RasterPrim* const> WarnockScene::draw(int x, int y, std::span<Vi
                          [](const RasterPrim* a, const RasterPrim* b) { return a->order < b->order; }) -
         list.begin());
   };
-  WarnockCounts unread;
-  subdivide(window, window_depth_ - 1, list, raster_.reach_px(), unread,
+  WarnockCounts unread;  // visit() counts the whole, from the image down
+  subdivide(window, 0, list, raster_.reach_px(), unread,
             [&](const TileRect& part, Outcome outcome, int, const PrimList& seen) {
               if (outcome == Outcome::empty) return;
               const uint32_t first = place_of(seen[0]);

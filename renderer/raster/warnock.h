@@ -62,7 +62,7 @@ class WarnockScene {
   TileRect root() const;
 
   const RasterScene& raster_;
-  int windows_across_ = 0, window_depth_ = 0;
+  int windows_across_ = 0;
   std::vector<PrimList> lists_;  // by window: what may be seen in it
 };
 

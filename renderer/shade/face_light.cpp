@@ -112,16 +112,9 @@ void FaceLight::look_at(const Hit& hit, const Surface& surface, const Vec4& view
 
 LightSample FaceLight::sample(size_t light) const {
   LightSample out;
-  const CompiledLight& source = scene_.lights[light];
-  if (source.kind == LightKind::directional) {
-    out.to_light = source.to_light;
-    out.distance = std::numeric_limits<double>::infinity();
-  } else {
-    const Vec3 path = source.position - surface_->position;
-    out.distance = glm::length(path);
-    if (!(out.distance > 0.0)) return out;
-    out.to_light = path / out.distance;
-  }
+  const LightWay way = way_to_light(scene_.lights[light], surface_->position);
+  out.to_light = way.to_light, out.distance = way.distance;
+  if (!(way.distance > 0.0)) return out;
   for (int i = 0; i < corners_; ++i) {
     const Brought& brought = face_->brought[static_cast<size_t>(i) * scene_.lights.size() + light];
     out.is_lit |= brought.is_lit;

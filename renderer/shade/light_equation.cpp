@@ -47,20 +47,20 @@ double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess)
   return exponent < kInvisible ? 0.0 : elementary::exp(exponent);
 }
 
+LightWay way_to_light(const CompiledLight& light, const Vec3& place) {
+  if (light.kind == LightKind::directional) return {light.to_light, std::numeric_limits<double>::infinity()};
+  const Vec3 path = light.position - place;
+  const double distance = glm::length(path);
+  return distance > 0.0 ? LightWay{path / distance, distance} : LightWay{Vec3(0.0), distance};
+}
+
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
                          const Vec3& to_viewer, bool is_rounded) {
   LightSample out;
-  double factor = 1.0;
-  if (light.kind == LightKind::directional) {
-    out.to_light = light.to_light;
-    out.distance = std::numeric_limits<double>::infinity();
-  } else {
-    const Vec3 path = light.position - surface.position;
-    out.distance = glm::length(path);
-    if (!(out.distance > 0.0)) return out;  // the light lies on the point: no direction, no light
-    out.to_light = path / out.distance;
-    factor = attenuation_factor(scene, out.distance);
-  }
+  const LightWay way = way_to_light(light, surface.position);
+  out.to_light = way.to_light, out.distance = way.distance;
+  if (!(way.distance > 0.0)) return out;  // no direction, no light
+  const double factor = light.kind == LightKind::directional ? 1.0 : attenuation_factor(scene, way.distance);
   const double cosine = glm::dot(surface.normal, out.to_light);
   if (!(cosine > 0.0) || !(is_rounded || glm::dot(surface.geometric_normal, out.to_light) > 0.0)) return out;
   out.is_lit = true;

@@ -15,6 +15,13 @@ namespace tilelight {
 // pow(dot, n) loses for large n; a small whole n is a few products. 0 where R.V <= 0, also for n = 0.
 double phong_lobe(const Vec3& mirrored, const Vec3& to_viewer, double shininess);
 
+// The way from a place to a light. to_light is zero where the light lies at the very place.
+struct LightWay {
+  Vec3 to_light{0.0};     // unit
+  double distance = 0.0;  // normalised units; infinite for a directional light
+};
+LightWay way_to_light(const CompiledLight& light, const Vec3& place);
+
 // What a light brings to a point of a surface before it is known whether something stands between.
 struct LightSample {
   Vec3 to_light{0.0};     // unit

@@ -15,7 +15,7 @@
 namespace tilelight {
 namespace {
 
-using study::Cancelled;
+using study::Cancelled, study::Drawing, study::Studio;
 
 constexpr uint32_t kReferenceSeed = 1'000'000'007;  // far from those of the rounds
 
@@ -26,43 +26,37 @@ std::vector<Enum> all_of(const std::array<NamedValue<Enum>, n>& table) {
   return out;
 }
 
-struct Drawn {
-  std::shared_ptr<const Image> image;
-  double time_ms = 0.0;
-  RayCounts rays;
-};
-
 class Maker {
  public:
-  Maker(const ParsedScene& parsed, const std::string& name, TilePool& pool, const CompareOptions& options)
-      : pool_(pool), options_(options), view_(parsed.view) {
+  Maker(const ParsedScene& parsed, const std::string& name, const Studio& studio, const CompareOptions& options)
+      : studio_(studio), pool_(studio.pool()), options_(options), view_(parsed.view) {
     view_ = study::with_samples(view_, options.samples, false);
     out_.scene_name = name, out_.scene_id = parsed.scene_id;
-    out_.threads = pool.thread_count();
+    out_.threads = pool_.thread_count();
     out_.width = view_.image.width, out_.height = view_.image.height, out_.exposure = view_.image.exposure;
     out_.samples = options.samples, out_.rounds = options.rounds, out_.reference_samples = options.reference_samples;
-    compiled_ = compile_scene(parsed.scene, pool);
+    compiled_ = compile_scene(parsed.scene, pool_);
     out_.isa = plan_view(*compiled_, view_).plan.isa;
   }
 
   Comparison make() {
     ask_rows();
-    std::vector<std::vector<Drawn>> rounds(views_.size());
+    std::vector<std::vector<Drawing>> rounds(views_.size());
     // All rows once, then once more: what slows the machine down for a while slows one round of each and no median.
     for (int round = 0; round < options_.rounds; ++round) {
       for (size_t i = 0; i < views_.size(); ++i) {
-        tell(out_.rows[i].method + " " + out_.rows[i].shading,
-             0.6 * (round + i / static_cast<double>(views_.size())) / options_.rounds);
-        rounds[i].push_back(draw(views_[i]));
+        studio_.tell(out_.rows[i].method + " " + out_.rows[i].shading,
+                     0.6 * (round + i / static_cast<double>(views_.size())) / options_.rounds);
+        rounds[i].push_back(studio_.draw(compiled_, views_[i]));
       }
     }
-    tell("the reference, " + std::to_string(options_.reference_samples) + " samples a pixel", 0.6);
+    studio_.tell("the reference, " + std::to_string(options_.reference_samples) + " samples a pixel", 0.6);
     View truth = study::with_samples(view_, options_.reference_samples, false);
     truth.render.seed = kReferenceSeed;
     truth.render.algorithm = Algorithm::raytrace, truth.render.shading = Shading::phong;
-    out_.reference = draw(truth).image;
+    out_.reference = studio_.draw(compiled_, truth).image;
     for (size_t i = 0; i < views_.size(); ++i) {
-      tell("comparing", 0.8 + 0.1 * static_cast<double>(i) / static_cast<double>(views_.size()));
+      studio_.tell("comparing", 0.8 + 0.1 * static_cast<double>(i) / static_cast<double>(views_.size()));
       judge(out_.rows[i], views_[i], rounds[i]);
     }
     for (const Algorithm method : methods_) look_at_work(method);
@@ -87,26 +81,9 @@ class Maker {
     }
   }
 
-  void tell(const std::string& what, double done) const {
-    if (options_.is_cancelled && options_.is_cancelled()) throw Cancelled{};
-    if (options_.on_progress) options_.on_progress(what, done);
-  }
-
-  Drawn draw(const View& view) const {
-    const auto render = Render::start(pool_, Priority::normal, compiled_, plan_view(*compiled_, view));
-    constexpr double kLookMs = 100.0;
-    while (!render->wait_ms(kLookMs)) {
-      if (options_.is_cancelled && options_.is_cancelled()) render->cancel();
-    }
-    if (options_.is_cancelled && options_.is_cancelled()) throw Cancelled{};
-    const RenderProgress progress = render->progress();
-    if (progress.state != RenderState::done) throw std::runtime_error("a render failed: " + progress.error);
-    return {render->image(), progress.elapsed_ms, render->report().points.back().rays};
-  }
-
-  void judge(CompareRow& row, const View& view, const std::vector<Drawn>& rounds) {
+  void judge(CompareRow& row, const View& view, const std::vector<Drawing>& rounds) {
     std::vector<double> times;
-    for (const Drawn& drawn : rounds) times.push_back(drawn.time_ms);
+    for (const Drawing& drawn : rounds) times.push_back(drawn.time_ms);
     const auto [least, most] = std::minmax_element(times.begin(), times.end());
     row.time_ms = median(times), row.time_low_ms = *least, row.time_high_ms = *most;
     row.rays = rounds.front().rays;
@@ -128,7 +105,7 @@ class Maker {
     view.render.algorithm = Algorithm::raytrace;
     view.render.max_depth = 0;
     view.render.tessellate = true;
-    return image = draw(view).image;
+    return image = studio_.draw(compiled_, view).image;
   }
 
   Difference difference(const Image& image, const Image& rays) const {
@@ -152,7 +129,7 @@ class Maker {
   }
 
   void look_at_work(Algorithm algorithm) {
-    tell("the work of " + std::string(get_word(kAlgorithms, algorithm)), 0.9);
+    studio_.tell("the work of " + std::string(get_word(kAlgorithms, algorithm)), 0.9);
     View view = view_;
     view.render.algorithm = algorithm;
     const ViewPlan plan = plan_view(*compiled_, view);
@@ -165,6 +142,7 @@ class Maker {
     if (!work.work.counts.empty()) out_.works.push_back(std::move(work));
   }
 
+  const Studio& studio_;
   TilePool& pool_;
   const CompareOptions& options_;
   View view_;
@@ -184,7 +162,9 @@ std::string file_stem(const CompareRow& row) {
 std::optional<Comparison> compare_methods(const ParsedScene& parsed, const std::string& name, TilePool& pool,
                                           const CompareOptions& options) {
   try {
-    return Maker(parsed, name, pool, options).make();
+    const StudyOptions callbacks{.on_progress = options.on_progress, .is_cancelled = options.is_cancelled};
+    const Studio studio(pool, callbacks);
+    return Maker(parsed, name, studio, options).make();
   } catch (const Cancelled&) {
     return std::nullopt;
   }

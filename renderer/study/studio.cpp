@@ -16,10 +16,16 @@ Drawing Studio::draw(const std::shared_ptr<const CompiledScene>& scene, const Vi
   }
   stop_if_cancelled();
   const RenderProgress progress = render->progress();
-  if (progress.state != RenderState::done) throw std::runtime_error("a render of the study failed: " + progress.error);
+  if (progress.state != RenderState::done) throw std::runtime_error("a render failed: " + progress.error);
   const ReportPoint end = render->report().points.back();
-  return {render->image(), render->error_bounds(), progress.elapsed_ms, end.cpu_ms, end.spp,
-          end.error,       end.truncation_bound};
+  return {render->image(),
+          render->error_bounds(),
+          progress.elapsed_ms,
+          end.cpu_ms,
+          end.spp,
+          end.error,
+          end.truncation_bound,
+          end.rays};
 }
 
 std::vector<Drawing> Studio::draw_rounds(const std::shared_ptr<const CompiledScene>& scene, View view) const {

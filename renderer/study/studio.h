@@ -20,6 +20,7 @@ struct Drawing {
   double time_ms = 0.0, cpu_ms = 0.0, spp = 0.0;
   ErrorSummary told;
   double truncation_bound = -1.0;
+  RayCounts rays = {};
 };
 
 class Studio {

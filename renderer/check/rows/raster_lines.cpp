@@ -203,7 +203,8 @@ Outcome hidden_lines(const Context& context) {
            at_most(1e-6, "visible length of three bars in a circle, relative error",
                    off_by(visible_length(circle.lines, is_any), bars.visible())),
            at_most(0, "points of lines that rays tell otherwise", static_cast<double>(told.otherwise)),
-           at_most(0.1, "points behind the very outline of something, %", percent(told.undecided, told.points))},
+           at_most(context.is_quick ? 0.1 : 0.01, "points behind the very outline of something, %",
+                   percent(told.undecided, told.points))},
           {at_most(1e-6, "without junctions: length of what the cubes show, relative error", without_junctions),
            at_most(1e-6, "bars painted whole: visible length, relative error", off_by(painted, bars.visible()))}};
 }
