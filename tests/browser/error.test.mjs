@@ -188,7 +188,9 @@ test('a rule by time ends the picture in that time', async () => {
     const { info } = heard.frames.at(-1);
     assert.match(info, /stop="time"/);
     const spp = Number(/spp=([\d.]+)/.exec(info)[1]);
-    assert.ok((await page.textContent('#status-more')).includes(spp === 1 ? '1 sample' : `${Number(spp.toFixed(1))} samples`));
+    const shown = Number(/([\d.]+) samples?$/.exec(await page.textContent('#status-more'))[1]);
+    const rounding = spp < 100 ? 0.05 : 0.5;  // a fast machine comes past a hundred, which are shown whole
+    assert.ok(Math.abs(shown - spp) <= rounding + 1e-9, `${shown} is shown for ${spp}`);
   });
 });
 
