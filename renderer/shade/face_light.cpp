@@ -60,69 +60,71 @@ LocalPoint FaceLight::corner(const CompiledBody& body, uint32_t prim, int index)
   return triangle_point(*body.mesh, prim, index == 0 ? 1.0 : 0.0, index == 1 ? 1.0 : 0.0);
 }
 
-void FaceLight::find_weights(const CompiledBody& body, const Hit& hit, const Surface& surface) {
-  if (corners_ == 1) {
-    weights_[0] = 1.0;
-  } else if (corners_ == 3) {
-    weights_ = {hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1};
-  } else {
-    const FaceAxes axes(hit.prim);
-    const Vec3 local = transform_point(body.local_from_world, surface.position);
-    const double u = part_of(local[axes.u], body.half[axes.u]), v = part_of(local[axes.v], body.half[axes.v]);
-    weights_ = {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
-  }
+std::array<double, FaceLight::kMostCorners> FaceLight::weights_of(const CompiledBody& body, const Hit& hit,
+                                                                  const Vec3& position) const {
+  if (shading_ == Shading::flat) return {1.0};
+  if (body.kind != BodyKind::box) return {hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1};
+  const FaceAxes axes(hit.prim);
+  const Vec3 local = transform_point(body.local_from_world, position);
+  const double u = part_of(local[axes.u], body.half[axes.u]), v = part_of(local[axes.v], body.half[axes.v]);
+  return {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
 }
 
 // The viewer and not the ray says which side of a face is seen: rays that pass just beside a face seen nearly edge on
 // meet its plane on both sides of him, and what is kept must not depend on which came first.
-void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, Face& face) const {
-  face.body = hit.body, face.prim = hit.prim;
-  face.brought.clear();
+void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, std::span<const CompiledLight> lights,
+                              std::vector<Brought>& brought) const {
+  brought.clear();
   const CompiledBody& body = scene_.bodies[hit.body];
+  const int corners = corners_of(body);
   LocalPoint middle = corner(body, hit.prim, 0);
-  for (int i = 1; i < corners_; ++i) middle.position += corner(body, hit.prim, i).position;
-  const Vec3 center = transform_point(body.world_from_local, middle.position / static_cast<double>(corners_));
+  for (int i = 1; i < corners; ++i) middle.position += corner(body, hit.prim, i).position;
+  const Vec3 center = transform_point(body.world_from_local, middle.position / static_cast<double>(corners));
   Ray seen;
   seen.direction = -way_to_viewer(viewer, center);
-  for (int i = 0; i < corners_; ++i) {
+  for (int i = 0; i < corners; ++i) {
     Surface at = make_surface_at(scene_, seen, hit, corner(body, hit.prim, i));
     at.diffuse = Color(1.0);
     const bool is_rounded = shading_ != Shading::flat && at.is_rounded && smooth_terminator_;
-    for (const CompiledLight& light : scene_.lights) {
+    for (const CompiledLight& light : lights) {
       const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_rounded);
-      face.brought.push_back({sample.arriving, sample.diffuse, sample.specular, sample.is_lit});
+      brought.push_back({sample.arriving, sample.diffuse, sample.specular, sample.is_lit});
     }
   }
 }
 
-void FaceLight::look_at(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary) {
-  const CompiledBody& body = scene_.bodies[hit.body];
-  corners_ = corners_of(body);
-  surface_ = &surface;
-  find_weights(body, hit, surface);
-  if (!is_primary) {
-    light_corners(hit, viewer, other_);
-    face_ = &other_;
-    return;
-  }
+const FaceLight::Face& FaceLight::kept_face(const Hit& hit, const Vec4& viewer) {
   Face& face = kept_[mix64(static_cast<uint64_t>(hit.body) << 32 | hit.prim) & (kept_.size() - 1)];
-  if (face.body != hit.body || face.prim != hit.prim) light_corners(hit, viewer, face);
-  face_ = &face;
+  if (face.body != hit.body || face.prim != hit.prim) {
+    face.body = hit.body, face.prim = hit.prim;
+    light_corners(hit, viewer, scene_.lights, face.brought);
+  }
+  return face;
 }
 
-LightSample FaceLight::sample(size_t light) const {
+LightSample FaceLight::sample(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary,
+                              size_t light) {
+  const CompiledBody& body = scene_.bodies[hit.body];
   LightSample out;
-  const LightWay way = way_to_light(scene_.lights[light], surface_->position);
+  const LightWay way = way_to_light(scene_.lights[light], surface.position);
   out.to_light = way.to_light, out.distance = way.distance;
   if (!(way.distance > 0.0)) return out;
-  for (int i = 0; i < corners_; ++i) {
-    const Brought& brought = face_->brought[static_cast<size_t>(i) * scene_.lights.size() + light];
-    out.is_lit |= brought.is_lit;
-    out.arriving += weights_[i] * brought.arriving;
-    out.diffuse += weights_[i] * brought.diffuse;
-    out.specular += weights_[i] * brought.specular;
+  const Brought* brought = nullptr;
+  size_t step = 1;
+  if (is_primary) {
+    brought = &kept_face(hit, viewer).brought[light], step = scene_.lights.size();
+  } else {
+    light_corners(hit, viewer, {&scene_.lights[light], 1}, brought_);
+    brought = brought_.data();
   }
-  out.diffuse *= surface_->diffuse;
+  const auto weights = weights_of(body, hit, surface.position);
+  for (int i = 0; i < corners_of(body); ++i, brought += step) {
+    out.is_lit |= brought->is_lit;
+    out.arriving += weights[i] * brought->arriving;
+    out.diffuse += weights[i] * brought->diffuse;
+    out.specular += weights[i] * brought->specular;
+  }
+  out.diffuse *= surface.diffuse;
   return out;
 }
 

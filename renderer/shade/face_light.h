@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/shade/light_equation.h"
@@ -18,12 +19,10 @@ class FaceLight {
   // smooth_terminator: the light of faces with interpolated normals ends where these turn away from it.
   FaceLight(const CompiledScene& scene, Shading shading, bool smooth_terminator);
 
-  // REQUIRES: flat or gouraud, and no plane. Lights the face of a hit for a viewer (xyz: his place, w 1; or the way to
-  // him, w 0). Keeps what it has found for the viewer at `eye` faces ago, so that neighbouring pixels share it.
-  void look_at(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary);
-
-  // What light number i of the scene brings to the point last looked at; the way to the light is that of the point.
-  LightSample sample(size_t light) const;
+  // What light number `light` of the scene brings to a hit; the way to the light is that of the hit's own place.
+  // REQUIRES: flat or gouraud, and no plane. viewer: as way_to_viewer has him. What is found for the viewer at the eye
+  // is kept for some faces, so that neighbouring pixels share it.
+  LightSample sample(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary, size_t light);
 
  private:
   static constexpr int kMostCorners = 4;
@@ -38,18 +37,17 @@ class FaceLight {
 
   int corners_of(const CompiledBody& body) const;
   LocalPoint corner(const CompiledBody& body, uint32_t prim, int index) const;
-  void find_weights(const CompiledBody& body, const Hit& hit, const Surface& surface);
-  void light_corners(const Hit& hit, const Vec4& viewer, Face& face) const;
+  std::array<double, kMostCorners> weights_of(const CompiledBody& body, const Hit& hit, const Vec3& position) const;
+  // By corner, and by light.
+  void light_corners(const Hit& hit, const Vec4& viewer, std::span<const CompiledLight> lights,
+                     std::vector<Brought>& brought) const;
+  const Face& kept_face(const Hit& hit, const Vec4& viewer);
 
   const CompiledScene& scene_;
   const Shading shading_;
   const bool smooth_terminator_;
-  std::vector<Face> kept_;  // by a hash of the face; primary rays alone have one viewer
-  Face other_;
-  const Face* face_ = nullptr;
-  const Surface* surface_ = nullptr;
-  int corners_ = 0;
-  std::array<double, kMostCorners> weights_{};
+  std::vector<Face> kept_;        // by a hash of the face; primary rays alone have one viewer
+  std::vector<Brought> brought_;  // to what another viewer looks at
 };
 
 }  // namespace tilelight

@@ -30,6 +30,11 @@ struct Ray {
   Coincident coincident = Coincident::none;
 };
 
+struct BoundedRay {
+  Ray ray;
+  double t_max = std::numeric_limits<double>::infinity();  // hits at or beyond it do not count
+};
+
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  // along the ray
   uint32_t body = kNone;                               // index into CompiledScene::bodies; kNone: a miss

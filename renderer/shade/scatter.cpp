@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "renderer/shade/surface-inl.h"
+
 namespace tilelight {
 namespace {
-
-Vec3 reflect(const Vec3& d, const Vec3& n) { return glm::normalize(d - 2.0 * glm::dot(d, n) * n); }
 
 struct Refraction {
   bool is_total = false;
@@ -31,8 +31,9 @@ Refraction refract(const Vec3& d, const Vec3& n, double eta) {
 }  // namespace
 
 Vec3 mirror_direction(const Surface& surface, const Vec3& incoming) {
-  const Vec3 r = reflect(incoming, surface.normal);
-  return glm::dot(r, surface.geometric_normal) > 0.0 ? r : reflect(incoming, surface.geometric_normal);
+  using namespace HWY_NAMESPACE;
+  return vec_of(
+      mirror_direction_at(of<double>(surface.normal), of<double>(surface.geometric_normal), of<double>(incoming)));
 }
 
 Scatter scatter_opaque(const Surface& surface, const Vec3& incoming) {

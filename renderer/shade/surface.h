@@ -22,9 +22,6 @@ struct Surface {
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
 
-// Turns a surface to whoever looks this way at it.
-void turn_to(Surface& surface, const Vec3& looking);
-
 // The unit way from a place to a viewer: xyz his place and w 1, or xyz the way to him and w 0.
 inline Vec3 way_to_viewer(const Vec4& viewer, const Vec3& place) { return unit_of(Vec3(viewer) - viewer.w * place); }
 
@@ -39,10 +36,5 @@ struct LocalPoint {
 LocalPoint triangle_point(const CompiledMesh& mesh, uint32_t prim, double b0, double b1);
 // A place on the primitive of a hit, seen along its ray.
 Surface make_surface_at(const CompiledScene& scene, const Ray& ray, const Hit& hit, const LocalPoint& local);
-
-// Where shadow rays start on a rounded surface: off the facet, on the curved surface, which is taken from the tangent
-// planes at the corners (Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4). Never under the facet.
-// REQUIRES: surface.is_rounded, and the hit it was made from.
-Vec3 rounded_position(const Surface& surface, const Hit& hit);
 
 }  // namespace tilelight

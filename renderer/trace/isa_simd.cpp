@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/trace/targets.h"
+#include "renderer/base/simd_targets.h"
 
 #include <hwy/highway.h>
 #include <hwy/targets.h>

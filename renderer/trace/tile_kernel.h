@@ -15,6 +15,8 @@
 #include "renderer/shade/face_light.h"
 #include "renderer/shade/media.h"
 #include "renderer/shade/scatter.h"
+#include "renderer/shade/surfaces.h"
+#include "renderer/trace/eye_rays.h"
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/pixel_filter.h"
 #include "renderer/trace/tile_job.h"
@@ -39,9 +41,11 @@ class TileKernel {
         plan_(*job.plan),
         spec_(job.plan->view.render),
         counts_(*job.counts),
-        beams_(job.scene->lights.size()),
         face_light_(*job.scene, job.plan->view.render.shading, job.plan->view.render.terminator == Terminator::smooth),
-        media_(*job.scene) {}
+        media_(*job.scene) {
+    const Eye& eye = plan_.eye;
+    viewer_ = eye.projection == Projection::orthographic ? Vec4(-eye.forward, 0.0) : Vec4(eye.origin, 1.0);
+  }
 
   void run() {
     constexpr int64_t kBatchPixels = 256;  // about 60 KiB of rays and hits: inside L2, and long enough to be coherent
@@ -83,20 +87,22 @@ class TileKernel {
     std::vector<BoundedRay> rays;
     std::vector<Path> paths;
     void clear() { rays.clear(), paths.clear(); }
+    // Written where they stay: copies of what was just written would wait for it.
     void push(const Vec3& origin, const Vec3& direction, const Departure& left, Coincident coincident,
-              const Path& path) {
+              const Color& weight, uint32_t sample, MediaSets::Set media, int depth, const char* kind) {
       Ray& ray = rays.emplace_back().ray;
       ray.origin = origin, ray.direction = direction;
       ray.left = left, ray.coincident = coincident;
-      paths.push_back(path);
+      Path& path = paths.emplace_back();
+      path.weight = weight, path.sample = sample, path.media = media, path.depth = depth, path.kind = kind;
     }
   };
-  // What a light brings to a sample if nothing stands between.
+  // What a light brings to a hit if nothing stands between.
   struct Pending {
     Color light;
-    uint32_t sample;
+    uint32_t hit;
   };
-  // The shadow rays to one light: neighbours among them go nearly the same way.
+  // Shadow rays to one light, in the order of the hits: neighbours go nearly the same way.
   struct Beam {
     std::vector<BoundedRay> rays;
     std::vector<uint32_t> pending;  // whose each ray is
@@ -113,7 +119,7 @@ class TileKernel {
 
   // Takes the rays of levels_[depth] and all their descendants to the end. Rays of one sample are neighbours.
   void follow_levels(size_t depth) {
-    constexpr size_t kPartRays = 1024;
+    constexpr size_t kPartRays = 256;  // what is known of their hits stays inside L2
     const size_t count = levels_[depth].rays.size();
     for (size_t first = 0, last = 0; first < count && !is_cancelled(); first = last) {
       last = end_of_part(levels_[depth], first, kPartRays);
@@ -139,25 +145,25 @@ class TileKernel {
   }
 
   void trace_part(Level& level, size_t first, size_t last, Level& next) {
-    // Lit by many lights, a part is lit in pieces: cut between samples, and inside a sample by its own count alone, so
-    // that the order of its sum depends on nothing else.
-    constexpr size_t kShadowRays = 4096;
-    size_t sample_start = 0;  // in pending_, of the sample in work
     const std::span<BoundedRay> rays = std::span(level.rays).subspan(first, last - first);
+    const std::span<Path> paths = std::span(level.paths).subspan(first, last - first);
     find_hits(level, rays, first);
-    next_ = &next;
-    for (size_t i = 0; i < rays.size(); ++i) {
-      Path& path = level.paths[first + i];
-      const bool is_new = i == 0 || path.sample != level.paths[first + i - 1].sample;
-      if (pending_.size() - (is_new ? 0 : sample_start) >= kShadowRays) {
-        add_lights();
-        sample_start = 0;
-      }
-      if (is_new) sample_start = pending_.size();
-      if constexpr (kCan.glass) pass_unseen(rays[i], path, hits_[i]);
-      shade(rays[i].ray, path, hits_[i]);
+    if constexpr (kCan.glass) {
+      for (size_t i = 0; i < rays.size(); ++i) pass_unseen(rays[i], paths[i], hits_[i]);
     }
-    add_lights();
+    const SurfaceOptions options = {.shading = spec_.shading,
+                                    .smooth_terminator = spec_.terminator == Terminator::smooth,
+                                    .viewer = job_.first_hits ? &viewer_ : nullptr};
+    make_surfaces(scene_, rays, hits_, options, surfaces_);
+    for (size_t i = 0; i < rays.size(); ++i) radiance_[paths[i].sample] += paths[i].weight * own_light(i);
+    if constexpr (kCan.listens) seen_.assign(scene_.lights.size() * rays.size(), Color(1.0));
+    for (size_t l = 0; l < scene_.lights.size(); ++l) add_light(l, rays, paths);
+    if constexpr (kCan.listens) tell(rays, paths);
+    if constexpr (kCan.mirrors) {
+      mirror_surfaces(surfaces_, rays.size(), mirrored_);
+      next_ = &next;
+      for (size_t i = 0; i < rays.size(); ++i) scatter(rays[i].ray, paths[i], i);
+    }
   }
 
   // Fills hits_. Those of primary rays may be known already.
@@ -169,16 +175,6 @@ class TileKernel {
     }
     hits_.resize(rays.size());
     trace_closest(scene_, rays, hits_);
-  }
-
-  // Adds what the lights bring to the hits shaded so far, where nothing stands between.
-  void add_lights() {
-    if constexpr (kCan.shadows) {
-      visible_.assign(pending_.size(), Color(1.0));
-      for (Beam& beam : beams_) follow_beam(beam);
-      for (size_t i = 0; i < pending_.size(); ++i) radiance_[pending_[i].sample] += pending_[i].light * visible_[i];
-      pending_.clear();
-    }
   }
 
   // visit(x, y, index) for every pixel sample of the batch. Neighbours are walked as packets.
@@ -193,14 +189,20 @@ class TileKernel {
     primary.clear();
     first_hits_.clear();
     enter_eye_media();
-    const Eye& eye = plan_.eye;
-    uint32_t sample = 0;
+    points_.clear();
     for_each_sample([&](int x, int y, uint32_t index) {
       const SamplePoint p = job_.first_hits ? job_.first_hits->place(x, y, index) : place_sample(spec_, x, y, index);
-      const EyeRay ray = eye_ray(eye, x + p.x, y + p.y);
-      primary.push(ray.origin, ray.direction, {}, Coincident::none,
-                   {Color(1.0), sample++, media_at(ray.origin), 0, "primary"});
-      if (job_.first_hits) first_hits_.push_back(job_.first_hits->at(x, y, index, primary.rays.back().ray));
+      points_.emplace_back(x + p.x, y + p.y);
+    });
+    primary.rays.resize(points_.size());
+    primary.paths.resize(points_.size());
+    aim_eye_rays(plan_.eye, points_, primary.rays);
+    uint32_t sample = 0;
+    for_each_sample([&](int x, int y, uint32_t index) {
+      const Ray& ray = primary.rays[sample].ray;
+      if (job_.first_hits) first_hits_.push_back(job_.first_hits->at(x, y, index, ray));
+      primary.paths[sample] = {Color(1.0), sample, media_at(ray.origin), 0, "primary"};
+      ++sample;
     });
     counts_.primary += sample;
     radiance_.assign(sample, Color(0.0));
@@ -231,101 +233,94 @@ class TileKernel {
     return eye_media_;
   }
 
-  void shade(const Ray& ray, const Path& path, const Hit& hit) {
-    if (!hit.is_hit()) {
-      const Color sky = background_color(scene_.background, ray.direction);
-      radiance_[path.sample] += path.weight * sky;
-      if constexpr (kCan.listens) listen(ray, path, hit, nullptr, sky);
-      return;
-    }
-    Surface surface = make_surface(scene_, ray, hit);
-    if (job_.first_hits) turn_to(surface, -way_to_viewer(viewer_of(ray, path), surface.position));
-    if (spec_.shading == Shading::flat) surface.normal = surface.geometric_normal, surface.is_rounded = false;
-    const Color ambient = scene_.ambient * surface.ambient;
-    radiance_[path.sample] += path.weight * ambient;
-    if constexpr (kCan.listens) listen(ray, path, hit, &surface, ambient);
-    light(ray, path, surface, hit);
-    if constexpr (kCan.mirrors) scatter(ray, path, surface);
+  // The sky, or what a surface has of the ambient light.
+  Color own_light(size_t i) const {
+    if (!hits_[i].is_hit()) return background_color(scene_.background, surfaces_.direction[i]);
+    return scene_.ambient * surfaces_.ambient[i];
   }
 
-  void light(const Ray& ray, const Path& path, const Surface& surface, const Hit& hit) {
-    const bool is_rounded = surface.is_rounded && spec_.terminator == Terminator::smooth;
-    const Vec3 start = kCan.shadows && is_rounded ? rounded_position(surface, hit) : surface.position;
-    const bool is_by_face = spec_.shading != Shading::phong && surface.body->kind != BodyKind::plane;
-    if (is_by_face) face_light_.look_at(hit, surface, viewer_of(ray, path), path.depth == 0);
-    for (size_t i = 0; i < scene_.lights.size(); ++i) {
-      const CompiledLight& source = scene_.lights[i];
-      const LightSample sample =
-          is_by_face ? face_light_.sample(i) : sample_light(scene_, source, surface, -ray.direction, is_rounded);
-      counts_.lights_on_hits += sample.distance == 0.0;
-      Color seen(0.0);
-      if (sample.is_lit) {
-        const Color arriving = path.weight * (sample.diffuse + sample.specular);
-        seen = Color(1.0);
-        if (!(kCan.shadows && source.shadow && spec_.shadows)) {
-          radiance_[path.sample] += arriving;
-        } else if (arriving != Color(0.0)) {
-          BoundedRay& shadow = beams_[i].rays.emplace_back();
-          aim(shadow, source, sample, surface, start);
-          beams_[i].pending.push_back(static_cast<uint32_t>(pending_.size()));
-          pending_.push_back({arriving, path.sample});
-          if constexpr (kCan.listens) seen = visible_along(shadow);
-        }
+  // Adds what one light brings to the hits, where nothing stands between.
+  void add_light(size_t l, std::span<const BoundedRay> rays, std::span<const Path> paths) {
+    const CompiledLight& source = scene_.lights[l];
+    light_surfaces(scene_, source, surfaces_, rays.size(), lit_);
+    if (spec_.shading != Shading::phong) light_by_face(l, rays, paths);
+    const bool casts_shadow = kCan.shadows && source.shadow && spec_.shadows;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      if (!hits_[i].is_hit()) continue;
+      counts_.lights_on_hits += lit_.is_at_light[i];
+      const Color light = paths[i].weight * lit_.light[i];
+      if (light == Color(0.0)) continue;
+      if (casts_shadow) {
+        aim(beam_.rays.emplace_back(), i);
+        beam_.pending.push_back(static_cast<uint32_t>(pending_.size()));
+        Pending& pending = pending_.emplace_back();
+        pending.light = light, pending.hit = static_cast<uint32_t>(i);
+      } else {
+        radiance_[paths[i].sample] += light;
       }
-      if constexpr (kCan.listens) job_.listener->on_light(source, sample, seen);
+    }
+    if constexpr (kCan.shadows) {
+      visible_.assign(pending_.size(), Color(1.0));
+      follow_beam();
+      for (size_t p = 0; p < pending_.size(); ++p) {
+        radiance_[paths[pending_[p].hit].sample] += pending_[p].light * visible_[p];
+        if constexpr (kCan.listens) seen_[l * rays.size() + pending_[p].hit] = visible_[p];
+      }
+      pending_.clear();
     }
   }
 
-  // Who looks along a ray: his place, or for an orthographic eye the way to him.
-  Vec4 viewer_of(const Ray& ray, const Path& path) const {
-    if (path.depth > 0) return Vec4(ray.origin, 1.0);
-    if (plan_.eye.projection == Projection::orthographic) return Vec4(-ray.direction, 0.0);
-    return Vec4(plan_.eye.origin, 1.0);
+  // Flat and Gouraud shading: a face's own light in place of its points'.
+  void light_by_face(size_t l, std::span<const BoundedRay> rays, std::span<const Path> paths) {
+    for (size_t i = 0; i < rays.size(); ++i) {
+      if (!is_by_face(hits_[i])) continue;
+      const LightSample sample = face_light_.sample(hits_[i], surface_of(scene_, surfaces_, hits_[i], i),
+                                                    viewer_of(rays[i].ray, paths[i]), paths[i].depth == 0, l);
+      lit_.light.set(i, sample.is_lit ? sample.diffuse + sample.specular : Color(0.0));
+    }
+  }
+  bool is_by_face(const Hit& hit) const {
+    return spec_.shading != Shading::phong && hit.is_hit() && scene_.bodies[hit.body].kind != BodyKind::plane;
   }
 
-  // A shadow ray from `start`, the surface's place or, where it is rounded, somewhat above it. A surface that the light
-  // itself lies on does not hide it: the ray ends before, by the rounding of the distance.
-  static void aim(BoundedRay& shadow, const CompiledLight& source, const LightSample& sample, const Surface& surface,
-                  const Vec3& start) {
-    Vec3 to_light = sample.to_light;
-    double distance = sample.distance;
-    if (source.kind == LightKind::point && start != surface.position && start != source.position) {
-      to_light = source.position - start;
-      distance = glm::length(to_light);
-      to_light /= distance;
-    }
-    shadow.ray.origin = start, shadow.ray.direction = to_light;
-    shadow.ray.left = surface.here, shadow.ray.coincident = Coincident::before;
-    shadow.t_max = distance * (1.0 - 0x1p-40);
+  // Who looks along a ray.
+  Vec4 viewer_of(const Ray& ray, const Path& path) const { return path.depth > 0 ? Vec4(ray.origin, 1.0) : viewer_; }
+
+  // A shadow ray to the light in lit_, written where it stays: a copy of what was just written would wait for it. A
+  // surface that the light itself lies on does not hide it: the ray ends before, by the rounding of the distance.
+  void aim(BoundedRay& shadow, size_t i) const {
+    shadow.ray.origin = surfaces_.start[i], shadow.ray.direction = lit_.to_light[i];
+    shadow.ray.left = {hits_[i].body, hits_[i].prim}, shadow.ray.coincident = Coincident::before;
+    shadow.t_max = lit_.distance[i] * (1.0 - 0x1p-40);
   }
 
   // Sets visible_ of what the beam decides, by channel: 0 behind something opaque, else the product of kt of the
   // transparent surfaces that the ray crosses, unrefracted. Empties the beam.
-  void follow_beam(Beam& beam) {
-    counts_.shadow += static_cast<int64_t>(beam.rays.size());
+  void follow_beam() {
+    counts_.shadow += static_cast<int64_t>(beam_.rays.size());
     if constexpr (kCan.glass) {
-      while (!beam.rays.empty() && !is_cancelled()) {
-        beam_hits_.resize(beam.rays.size());
-        trace_closest(scene_, beam.rays, beam_hits_);
+      while (!beam_.rays.empty() && !is_cancelled()) {
+        beam_hits_.resize(beam_.rays.size());
+        trace_closest(scene_, beam_.rays, beam_hits_);
         size_t kept = 0;
-        for (size_t i = 0; i < beam.rays.size(); ++i) {
-          if (!goes_on(beam.rays[i], beam_hits_[i], visible_[beam.pending[i]])) continue;
-          beam.rays[kept] = beam.rays[i];
-          beam.pending[kept++] = beam.pending[i];
+        for (size_t i = 0; i < beam_.rays.size(); ++i) {
+          if (!goes_on(beam_.rays[i], beam_hits_[i], visible_[beam_.pending[i]])) continue;
+          beam_.rays[kept] = beam_.rays[i];
+          beam_.pending[kept++] = beam_.pending[i];
         }
-        beam.rays.resize(kept);
-        beam.pending.resize(kept);
+        beam_.rays.resize(kept);
+        beam_.pending.resize(kept);
         counts_.shadow += static_cast<int64_t>(kept);
       }
     } else {
-      is_blocked_.resize(beam.rays.size());
-      trace_any(scene_, beam.rays, is_blocked_);
-      for (size_t i = 0; i < beam.rays.size(); ++i) {
-        if (is_blocked_[i]) visible_[beam.pending[i]] = Color(0.0);
+      is_blocked_.resize(beam_.rays.size());
+      trace_any(scene_, beam_.rays, is_blocked_);
+      for (size_t i = 0; i < beam_.rays.size(); ++i) {
+        if (is_blocked_[i]) visible_[beam_.pending[i]] = Color(0.0);
       }
     }
-    beam.rays.clear();
-    beam.pending.clear();
+    beam_.rays.clear();
+    beam_.pending.clear();
   }
 
   // Takes a shadow ray across the surface that it has met; false: no light is left, or nothing is met.
@@ -342,14 +337,6 @@ class TileKernel {
     return true;
   }
 
-  Color visible_along(BoundedRay shadow) const {
-    Color visible(1.0);
-    Hit hit;
-    do trace_closest(scene_, {&shadow, 1}, {&hit, 1});
-    while (goes_on(shadow, hit, visible) && !is_cancelled());
-    return visible;
-  }
-
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
   // ray gets no deeper.
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
@@ -364,24 +351,24 @@ class TileKernel {
     }
   }
 
-  void scatter(const Ray& ray, const Path& path, const Surface& surface) {
-    const CompiledMaterial& m = *surface.material;
+  void scatter(const Ray& ray, const Path& path, size_t i) {
+    if (!hits_[i].is_hit()) return;
+    const CompiledMaterial& m = scene_.materials[scene_.bodies[hits_[i].body].material];
     if (!m.is_reflective && !(kCan.glass && m.is_transmissive)) return;
     MediaSets::Set here = path.media, beyond = path.media;
     Scatter out;
     if (!kCan.glass || !m.is_transmissive) {
-      out = scatter_opaque(surface, ray.direction);
-    } else if (is_medium(scene_, surface.here.body)) {
-      const Crossing crossing(media_, path.media, surface.here.body, surface.from_outside);
+      out.mirrored = mirrored_[i], out.mirror_weight = m.source.reflection;
+    } else if (const Surface surface = surface_of(scene_, surfaces_, hits_[i], i); is_medium(scene_, hits_[i].body)) {
+      const Crossing crossing(media_, path.media, hits_[i].body, surface.from_outside);
       out = scatter_transparent(surface, ray.direction, media_.ior(crossing.before), media_.ior(crossing.after));
       here = crossing.before, beyond = crossing.after;
     } else {
       out = scatter_thin(surface, ray.direction);
     }
-    if (follow(path, surface, out.mirrored, out.mirror_weight, here, Coincident::before, "reflected"))
-      ++counts_.reflected;
+    if (follow(path, i, out.mirrored, out.mirror_weight, here, Coincident::before, "reflected")) ++counts_.reflected;
     if constexpr (kCan.glass) {
-      if (follow(path, surface, out.refracted, out.refract_weight, beyond, Coincident::after, "refracted"))
+      if (follow(path, i, out.refracted, out.refract_weight, beyond, Coincident::after, "refracted"))
         ++counts_.refracted;
     }
   }
@@ -389,8 +376,8 @@ class TileKernel {
   static double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
   // Queues a ray of the next level, if depth, weight and budget allow it.
-  bool follow(const Path& path, const Surface& surface, const Vec3& direction, const Color& factor,
-              MediaSets::Set media, Coincident coincident, const char* kind) {
+  bool follow(const Path& path, size_t i, const Vec3& direction, const Color& factor, MediaSets::Set media,
+              Coincident coincident, const char* kind) {
     const Color weight = path.weight * factor;
     if (!(largest(weight) > 0.0)) return false;
     if (path.depth >= spec_.max_depth || largest(weight) < spec_.weight_cutoff ||
@@ -399,13 +386,29 @@ class TileKernel {
       return false;
     }
     ++spent_[path.sample];
-    next_->push(surface.position, direction, surface.here, coincident,
-                {weight, path.sample, media, path.depth + 1, kind});
+    next_->push(surfaces_.position[i], direction, {hits_[i].body, hits_[i].prim}, coincident, weight, path.sample,
+                media, path.depth + 1, kind);
     return true;
   }
 
-  void listen(const Ray& ray, const Path& path, const Hit& hit, const Surface* surface, const Color& local) {
-    job_.listener->on_ray({path.depth, path.kind, ray, path.weight, hit, surface, local});
+  // Tells the listener of every ray and of what each light brings to its end.
+  void tell(std::span<const BoundedRay> rays, std::span<const Path> paths) {
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const Ray& ray = rays[i].ray;
+      const Path& path = paths[i];
+      const bool is_hit = hits_[i].is_hit();
+      const Surface surface = is_hit ? surface_of(scene_, surfaces_, hits_[i], i) : Surface{};
+      job_.listener->on_ray(
+          {path.depth, path.kind, ray, path.weight, hits_[i], is_hit ? &surface : nullptr, own_light(i)});
+      if (!is_hit) continue;
+      for (size_t l = 0; l < scene_.lights.size(); ++l) {
+        const CompiledLight& light = scene_.lights[l];
+        const LightSample sample = is_by_face(hits_[i])
+                                       ? face_light_.sample(hits_[i], surface, viewer_of(ray, path), path.depth == 0, l)
+                                       : sample_light(scene_, light, surface, -ray.direction, surface.is_rounded);
+        job_.listener->on_light(light, sample, sample.is_lit ? seen_[l * rays.size() + i] : Color(0.0));
+      }
+    }
   }
 
   void finish_batch() {
@@ -431,14 +434,20 @@ class TileKernel {
   TileCounts& counts_;
   std::deque<Level> levels_;  // by depth; a deque, so that a level stays where it is while deeper ones come
   Level* next_ = nullptr;     // takes the rays that the part in work sends out
+  std::vector<Vec2> points_;  // of the image, where the batch's samples lie
   std::vector<Hit> hits_;
-  std::vector<Hit> first_hits_;   // of the batch's primary rays, where the job knows them
-  std::vector<Beam> beams_;       // by light
+  std::vector<Hit> first_hits_;  // of the batch's primary rays, where the job knows them
+  SurfaceColumns surfaces_;      // of the hits
+  LightColumns lit_;             // by the light in work
+  Column3 mirrored_;
+  Beam beam_;
   std::vector<Pending> pending_;  // what each shadow ray decides
   std::vector<Color> visible_;    // the answers
   std::vector<uint8_t> is_blocked_;
   std::vector<Hit> beam_hits_;
-  FaceLight face_light_;  // of flat and Gouraud shading
+  std::vector<Color> seen_;  // by light and hit, how much of it is seen: for listeners alone
+  Vec4 viewer_{0.0};         // whoever looks along primary rays: his place, or for an orthographic eye the way to him
+  FaceLight face_light_;     // of flat and Gouraud shading
   MediaSets media_;
   MediaSets::Set eye_media_ = MediaSets::kOpenAir;
   MediaList some_media_;         // hold the starts of some rays of the batch

@@ -11,11 +11,6 @@
 
 namespace tilelight {
 
-struct BoundedRay {
-  Ray ray;
-  double t_max = std::numeric_limits<double>::infinity();  // hits at or beyond it do not count
-};
-
 // hits[i] = the nearest hit of rays[i], ties to the lowest (body, primitive). REQUIRES: equal sizes.
 void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The batches of trace_rays.h, for every instruction set.
-#include "renderer/trace/targets.h"
+#include "renderer/base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/trace/trace_rays_simd.cpp"

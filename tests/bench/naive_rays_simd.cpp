@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/naive_rays.h"
 
-#include "renderer/trace/targets.h"
+#include "renderer/base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/bench/naive_rays_simd.cpp"

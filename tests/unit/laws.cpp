@@ -167,7 +167,8 @@ Violations broken_door_laws(const SourceFile& file) {
     const char *library, *path, *where;
   };
   static constexpr Door kDoors[] = {
-      {R"(hwy/.*)", R"(renderer/(trace|raster)/[^/]*(_simd[^/]*|-inl\.h))", "*_simd* and *-inl.h of trace and raster"},
+      {R"(hwy/.*)", R"(renderer/(shade|trace|raster)/[^/]*(_simd[^/]*|-inl\.h))",
+       "*_simd* and *-inl.h of shade, trace and raster"},
       {R"(nlohmann/.*)", R"(.*_json\.cpp)", "*_json.cpp"},
       {R"(OpenImageIO/.*)", R"(renderer/film/image_io\.cpp)", "renderer/film/image_io.cpp"},
       {R"((cpp-)?httplib(\.h|/.*))", R"(server/http/.*)", "server/http"},

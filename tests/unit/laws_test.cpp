@@ -95,7 +95,7 @@ TEST(RoomLaw, KnowsEveryRoomByName) {
 
 TEST(DoorLaw, CatchesALibraryThroughAWindow) {
   EXPECT_EQ(of_doors("renderer/trace/render_tile.cpp", "hwy/highway.h").size(), 1u);
-  EXPECT_EQ(of_doors("renderer/shade/phong_simd.cpp", "hwy/highway.h").size(), 1u);
+  EXPECT_EQ(of_doors("renderer/film/phong_simd.cpp", "hwy/highway.h").size(), 1u);
   EXPECT_EQ(of_doors("renderer/scene/parse.cpp", "nlohmann/json.hpp").size(), 1u);
   EXPECT_EQ(of_doors("server/config_json.h", "nlohmann/json_fwd.hpp").size(), 1u);
   EXPECT_EQ(of_doors("renderer/film/image_io.h", "OpenImageIO/imageio.h").size(), 1u);

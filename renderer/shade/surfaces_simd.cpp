@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// The columns of surfaces.h, a register at a time. Of hits side by side those on one body are made together, body by
+// body; then the lights see them all alike.
+#include "renderer/base/simd_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/shade/surfaces_simd.cpp"
+#include <hwy/foreach_target.h>
+
+#include "renderer/shade/light_equation-inl.h"
+#include "renderer/shade/surfaces.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tilelight {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE Of3<Lanes> load(const Column3& from, size_t i) {
+  return {load(&from.x[i]), load(&from.y[i]), load(&from.z[i])};
+}
+HWY_INLINE void store(const Of3<Lanes>& v, Column3& to, size_t i) {
+  store(v.x, &to.x[i]), store(v.y, &to.y[i]), store(v.z, &to.z[i]);
+}
+HWY_INLINE LaneMask load(const std::vector<uint8_t>& from, size_t i) {
+  uint32_t bits = 0;
+  for (size_t lane = 0; lane < kLanes; ++lane) bits |= static_cast<uint32_t>(from[i + lane] & 1) << lane;
+  return mask_of(bits);
+}
+HWY_INLINE void store(LaneMask mask, std::vector<uint8_t>& to, size_t i) {
+  const uint32_t bits = bits_of(mask);
+  for (size_t lane = 0; lane < kLanes; ++lane) to[i + lane] = bits >> lane & 1;
+}
+
+// What is known of kLanes hits.
+struct LaneSurfaces {
+  SurfaceOf<Lanes> surface;
+  Of3<Lanes> start;
+  GlossOf<Lanes> gloss;
+  LaneMask is_rounded;
+};
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(const CompiledScene& scene, const SurfaceOptions& options) : scene_(scene), options_(options) {}
+
+  // The hits of rays[0], rays[1], ... count, at most kLanes, of them.
+  HWY_INLINE void make(const BoundedRay* rays, const Hit* hits, size_t count, SurfaceColumns& out, size_t at) {
+    rays_ = rays, hits_ = hits;
+    Gathered3 ways;
+    uint32_t todo = 0;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const size_t i = lane < count ? lane : 0;
+      ways.set(lane, rays[i].ray.direction);
+      todo |= static_cast<uint32_t>(lane < count && hits[i].is_hit()) << lane;
+    }
+    direction_ = ways.lanes();
+    store(direction_, out.direction, at);
+    if (todo == 0) return;
+    LaneSurfaces all = on_first_body(todo);
+    while (todo != 0) {
+      const uint32_t before = todo;
+      const LaneSurfaces more = on_first_body(todo);
+      blend(mask_of(before & ~todo), more, all);
+    }
+    store(all.surface.position, out.position, at);
+    store(all.surface.geometric_normal, out.geometric_normal, at);
+    store(all.surface.normal, out.normal, at);
+    store(all.surface.ambient, out.ambient, at);
+    store(all.surface.diffuse, out.diffuse, at);
+    store(all.start, out.start, at);
+    store(all.gloss.specular, out.specular, at);
+    store(all.gloss.shininess, &out.shininess[at]);
+    store(all.surface.from_outside, out.from_outside, at);
+    store(all.gloss.is_specular, out.is_specular, at);
+    store(all.is_rounded, out.is_rounded, at);
+  }
+
+ private:
+  // Of the body of the first hit to do; takes its hits off the list.
+  HWY_INLINE LaneSurfaces on_first_body(uint32_t& todo) const {
+    const size_t first = hwy::Num0BitsBelowLS1Bit_Nonzero32(todo);
+    const uint32_t index = hits_[first].body;
+    size_t source[kLanes];  // hits elsewhere stand aside by repeating the first
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const bool is_here = (todo >> lane & 1) && hits_[lane].body == index;
+      source[lane] = is_here ? lane : first;
+      todo &= ~(static_cast<uint32_t>(is_here) << lane);
+    }
+    const CompiledBody& body = scene_.bodies[index];
+    const CompiledMaterial& material = scene_.materials[body.material];
+    LaneSurfaces out = body.kind == BodyKind::mesh ? on_mesh(body, source) : on_solid(body, source);
+    out.gloss = {of<Lanes>(material.source.specular), Lanes(material.source.shininess),
+                 mask_of(material.is_specular ? ~0u : 0u)};
+    return out;
+  }
+
+  HWY_INLINE LaneSurfaces on_mesh(const CompiledBody& body, const size_t (&source)[kLanes]) const {
+    const CompiledMesh& mesh = *body.mesh;
+    const bool has_normals = is_smooth(mesh);
+    Gathered3 corners[3], normals[3];
+    Gathered b0, b1;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const Hit& hit = hits_[source[lane]];
+      b0.at[lane] = hit.b0, b1.at[lane] = hit.b1;
+      const auto& at = mesh.triangles[hit.prim];
+      for (int v = 0; v < 3; ++v) corners[v].set(lane, mesh.positions[at[v]]);
+      if (!has_normals) continue;
+      const auto& of_corner = mesh.corner_normals[hit.prim];
+      for (int v = 0; v < 3; ++v) normals[v].set(lane, mesh.normals[of_corner[v]]);
+    }
+    TriangleOf<Lanes> triangle;
+    for (int v = 0; v < 3; ++v) {
+      triangle.corner[v] = corners[v].lanes();
+      if (has_normals) triangle.normal[v] = normals[v].lanes();
+    }
+    const Lanes u = b0.lanes(), v = b1.lanes();
+    LaneSurfaces out;
+    out.surface = seen(body, point_of_triangle(triangle, has_normals, u, v));
+    out.start = out.surface.position;
+    out.is_rounded = mask_of(is_rounded(has_normals) ? ~0u : 0u);
+    if (is_rounded(has_normals))
+      out.start = rounded_start(body, triangle, u, v, out.surface.position, out.surface.from_outside);
+    return out;
+  }
+
+  HWY_INLINE LaneSurfaces on_solid(const CompiledBody& body, const size_t (&source)[kLanes]) const {
+    Gathered3 origins;
+    Gathered t, prim;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      origins.set(lane, rays_[source[lane]].ray.origin);
+      t.at[lane] = hits_[source[lane]].t, prim.at[lane] = hits_[source[lane]].prim;
+    }
+    LaneSurfaces out;
+    out.surface = seen(body, point_of_solid(body, origins.lanes(), direction_, t.lanes(), prim.lanes()));
+    out.start = out.surface.position;
+    out.is_rounded = mask_of(0);
+    return out;
+  }
+
+  bool is_rounded(bool has_normals) const {
+    return has_normals && options_.smooth_terminator && options_.shading != Shading::flat;
+  }
+
+  static HWY_INLINE void blend(LaneMask mask, const LaneSurfaces& more, LaneSurfaces& all) {
+    const auto take = [&](const auto& a, auto& b) HWY_ATTR { b = select(mask, a, b); };
+    take(more.surface.position, all.surface.position);
+    take(more.surface.geometric_normal, all.surface.geometric_normal);
+    take(more.surface.normal, all.surface.normal);
+    take(more.surface.from_outside, all.surface.from_outside);
+    take(more.surface.ambient, all.surface.ambient);
+    take(more.surface.diffuse, all.surface.diffuse);
+    take(more.start, all.start);
+    take(more.gloss.specular, all.gloss.specular);
+    take(more.gloss.shininess, all.gloss.shininess);
+    take(more.gloss.is_specular, all.gloss.is_specular);
+    take(more.is_rounded, all.is_rounded);
+  }
+
+  HWY_INLINE SurfaceOf<Lanes> seen(const CompiledBody& body, const LocalPointOf<Lanes>& local) const {
+    SurfaceOf<Lanes> out = surface_at(scene_, body, local, direction_);
+    if (options_.viewer) {
+      const Lanes w(options_.viewer->w);
+      turn(out, -unit_vector(of<Lanes>(Vec3(*options_.viewer)) - w * out.position));
+    }
+    if (options_.shading == Shading::flat) out.normal = out.geometric_normal;
+    return out;
+  }
+
+  const CompiledScene& scene_;
+  const SurfaceOptions& options_;
+  const BoundedRay* rays_ = nullptr;
+  const Hit* hits_ = nullptr;
+  Of3<Lanes> direction_;
+};
+
+void make_surface_columns(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<const Hit> hits,
+                          const SurfaceOptions& options, SurfaceColumns& out) {
+  SurfaceMaker maker(scene, options);
+  for (size_t i = 0; i < rays.size(); i += kLanes)
+    maker.make(&rays[i], &hits[i], std::min(kLanes, rays.size() - i), out, i);
+}
+
+void light_surface_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
+                           size_t count, LightColumns& out) {
+  for (size_t i = 0; i < count; i += kLanes) {
+    SurfaceOf<Lanes> surface;
+    surface.position = load(surfaces.position, i);
+    surface.geometric_normal = load(surfaces.geometric_normal, i);
+    surface.normal = load(surfaces.normal, i);
+    surface.diffuse = load(surfaces.diffuse, i);
+    const GlossOf<Lanes> gloss = {load(surfaces.specular, i), load(&surfaces.shininess[i]),
+                                  load(surfaces.is_specular, i)};
+    const LaneMask is_rounded = load(surfaces.is_rounded, i);
+    const auto sample = light_at(scene, light, surface, gloss, -load(surfaces.direction, i), is_rounded);
+    store(sample.diffuse + sample.specular, out.light, i);
+    store(sample.way.distance == Lanes(0.0), out.is_at_light, i);
+    LightWayOf<Lanes> way = sample.way;
+    if (light.kind == LightKind::point && any(is_rounded)) {
+      const auto lifted = way_to(light, load(surfaces.start, i));
+      const LaneMask is_lifted = is_rounded & (lifted.distance > Lanes(0.0));
+      way.to_light = select(is_lifted, lifted.to_light, way.to_light);
+      way.distance = select(is_lifted, lifted.distance, way.distance);
+    }
+    store(way.to_light, out.to_light, i);
+    store(way.distance, &out.distance[i]);
+  }
+}
+
+void mirror_surface_columns(const SurfaceColumns& surfaces, size_t count, Column3& out) {
+  for (size_t i = 0; i < count; i += kLanes) {
+    store(
+        mirror_direction_at(load(surfaces.normal, i), load(surfaces.geometric_normal, i), load(surfaces.direction, i)),
+        out, i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tilelight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tilelight {
+
+HWY_EXPORT(make_surface_columns);
+HWY_EXPORT(light_surface_columns);
+HWY_EXPORT(mirror_surface_columns);
+
+namespace {
+
+size_t with_room(size_t count) {
+  constexpr size_t kWidest = 8;
+  return count + kWidest;
+}
+
+void make_room(Column3& columns, size_t count) {
+  for (Column* column : {&columns.x, &columns.y, &columns.z}) column->resize(with_room(count));
+}
+
+}  // namespace
+
+void make_surfaces(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<const Hit> hits,
+                   const SurfaceOptions& options, SurfaceColumns& out) {
+  for (Column3* columns : {&out.direction, &out.position, &out.geometric_normal, &out.normal, &out.ambient,
+                           &out.diffuse, &out.start, &out.specular})
+    make_room(*columns, rays.size());
+  out.shininess.resize(with_room(rays.size()));
+  for (auto* flags : {&out.from_outside, &out.is_specular, &out.is_rounded}) flags->resize(with_room(rays.size()));
+  HWY_DYNAMIC_DISPATCH(make_surface_columns)(scene, rays, hits, options, out);
+}
+
+Surface surface_of(const CompiledScene& scene, const SurfaceColumns& surfaces, const Hit& hit, size_t index) {
+  Surface out;
+  out.position = surfaces.position[index];
+  out.geometric_normal = surfaces.geometric_normal[index];
+  out.normal = surfaces.normal[index];
+  out.is_rounded = surfaces.is_rounded[index];
+  out.from_outside = surfaces.from_outside[index];
+  out.body = &scene.bodies[hit.body];
+  out.material = &scene.materials[out.body->material];
+  out.ambient = surfaces.ambient[index];
+  out.diffuse = surfaces.diffuse[index];
+  out.here = {hit.body, hit.prim};
+  return out;
+}
+
+void light_surfaces(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
+                    size_t count, LightColumns& out) {
+  make_room(out.light, count);
+  make_room(out.to_light, count);
+  out.distance.resize(with_room(count));
+  out.is_at_light.resize(with_room(count));
+  HWY_DYNAMIC_DISPATCH(light_surface_columns)(scene, light, surfaces, count, out);
+}
+
+void mirror_surfaces(const SurfaceColumns& surfaces, size_t count, Column3& out) {
+  make_room(out, count);
+  HWY_DYNAMIC_DISPATCH(mirror_surface_columns)(surfaces, count, out);
+}
+
+}  // namespace tilelight
+#endif
