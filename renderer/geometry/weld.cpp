@@ -78,6 +78,16 @@ void join_smooth_corners(const TriMesh& mesh, std::span<const uint32_t> corners,
   }
 }
 
+// Whether every corner has the normal of its facet, up to rounding: the mesh needs no others.
+bool is_faceted(const TriMesh& mesh, const std::vector<Vec3>& facet_normals) {
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const Vec3& normal : mesh.corner_normals[t]) {
+      if (!(glm::dot(normal, facet_normals[t]) > 1.0 - 0x1p-40)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Weld weld_positions(std::span<const Vec3> source) {
@@ -127,6 +137,7 @@ void set_crease_normals(TriMesh& mesh, double crease_deg) {
           vanishes ? facet_normals[corners[c] / 3] : unit_or_zero(sum);
     }
   }
+  if (is_faceted(mesh, facet_normals)) mesh.corner_normals.clear();
 }
 
 }  // namespace tilelight

@@ -22,6 +22,7 @@ Weld weld_positions(std::span<const Vec3> source);
 // Fills mesh.corner_normals: the mean of the facets around a vertex, weighed by their angles there (Thuermer and
 // Wuethrich 1998), over the facets that are joined by edges no sharper than crease_deg. REQUIRES: no degenerate
 // triangles, welded positions. A vanishing mean falls back to the facet's normal, counted in normals_repaired.
+// Where every edge is sharp none are left: the mesh is flat.
 void set_crease_normals(TriMesh& mesh, double crease_deg);
 
 }  // namespace tilelight

@@ -51,6 +51,11 @@ HWY_INLINE R lobe(const Of3<R>& mirrored, const Of3<R>& to_viewer, R shininess) 
   return out;
 }
 
+HWY_INLINE bool is_directional(const CompiledLight& light) {
+  if (!is_built_in(Feature::point_lights)) return true;
+  return is_built_in(Feature::directional_lights) && light.kind == LightKind::directional;
+}
+
 template <class R>
 struct LightWayOf {
   Of3<R> to_light;  // unit; zero where the light lies at the very place
@@ -58,7 +63,7 @@ struct LightWayOf {
 };
 template <class R>
 HWY_INLINE LightWayOf<R> way_to(const CompiledLight& light, const Of3<R>& place) {
-  if (light.kind == LightKind::directional) return {of<R>(light.to_light), R(std::numeric_limits<double>::infinity())};
+  if (is_directional(light)) return {of<R>(light.to_light), R(std::numeric_limits<double>::infinity())};
   const Of3<R> path = of<R>(light.position) - place;
   const R distance = length(path);
   const R scale = select(distance > R(0.0), distance, R(1.0));
@@ -68,6 +73,7 @@ HWY_INLINE LightWayOf<R> way_to(const CompiledLight& light, const Of3<R>& place)
 // distance: normalised; K is in the user's units.
 template <class R>
 HWY_INLINE R attenuation_factor(const CompiledScene& scene, R distance) {
+  if (!is_built_in(Feature::attenuation)) return R(1.0);
   const R d = distance * R(scene.units);
   switch (scene.attenuation.mode) {
     case AttenuationMode::linear:
@@ -99,12 +105,12 @@ HWY_INLINE LightSampleOf<R> light_at(const CompiledScene& scene, const CompiledL
   const Of3<R> none = of<R>(Vec3(0.0));
   out.arriving = out.diffuse = out.specular = none;
   if (!any(out.is_lit)) return out;
-  const R factor = light.kind == LightKind::directional ? R(1.0) : attenuation_factor(scene, out.way.distance);
+  const R factor = is_directional(light) ? R(1.0) : attenuation_factor(scene, out.way.distance);
   const Of3<R> arriving = factor * of<R>(light.intensity);
   out.arriving = select(out.is_lit, arriving, none);
   out.diffuse = select(out.is_lit, cosine * (arriving * surface.diffuse), none);
   const auto is_glossy = out.is_lit & gloss.is_specular;
-  if (!any(is_glossy)) return out;
+  if (!is_built_in(Feature::specular) || !any(is_glossy)) return out;
   const Of3<R> mirrored = (R(2.0) * cosine) * surface.normal - to_light;
   const R shine = lobe(mirrored, to_viewer, gloss.shininess);
   out.specular = select(is_glossy, shine * (arriving * gloss.specular), none);

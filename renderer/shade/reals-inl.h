@@ -161,7 +161,7 @@ struct Gathered3 {
 // What has no form in lanes, computed one by one where `which` says so: out = f(in...), of doubles or of vectors.
 template <class F>
 HWY_INLINE void each_lane(LaneMask which, Lanes& out, const F& f, Lanes a, Lanes b) {
-  Gathered x, y, result;
+  Gathered x{}, y{}, result{};
   store(a, x.at), store(b, y.at), store(out, result.at);
   for (uint32_t bits = bits_of(which), i = 0; bits != 0; bits >>= 1, ++i) {
     if (bits & 1) result.at[i] = f(x.at[i], y.at[i]);

@@ -9,6 +9,7 @@
 #endif
 
 #include "renderer/base/safe_length.h"
+#include "renderer/compile/built_in.h"
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 #include "renderer/shade/reals-inl.h"
@@ -45,7 +46,9 @@ struct TriangleOf {
   Of3<R> corner[3], normal[3];
 };
 
-HWY_INLINE bool is_smooth(const CompiledMesh& mesh) { return !mesh.corner_normals.empty(); }
+HWY_INLINE bool is_smooth(const CompiledMesh& mesh) {
+  return is_built_in(Feature::smooth_normals) && !mesh.corner_normals.empty();
+}
 
 template <class R>
 HWY_INLINE Of3<R> unit_vector(const Of3<R>& v) {
@@ -97,9 +100,10 @@ HWY_INLINE LocalPointOf<R> point_of_solid(const CompiledBody& body, const Of3<R>
       transform_point(body.local_from_world, origin) + t * transform_vector(Mat3(body.local_from_world), direction);
   out.geometric = out.shading = zero;
   out.is_smooth = R(0.0) > R(0.0);
-  if (body.kind == BodyKind::sphere) out.geometric = out.position = normalized(out.position);
-  if (body.kind == BodyKind::plane) out.position.y = R(0.0), out.geometric.y = R(1.0);
-  if (body.kind == BodyKind::box) {
+  if (is_built_in(Feature::spheres) && body.kind == BodyKind::sphere)
+    out.geometric = out.position = normalized(out.position);
+  if (is_built_in(Feature::planes) && body.kind == BodyKind::plane) out.position.y = R(0.0), out.geometric.y = R(1.0);
+  if (is_built_in(Feature::boxes) && body.kind == BodyKind::box) {
     const auto put = [&](double axis, double half, R& place, R& normal) HWY_ATTR {
       const auto is_lower = prim == R(2.0 * axis), is_upper = prim == R(2.0 * axis + 1.0);
       normal = select(is_upper, R(1.0), select(is_lower, R(-1.0), R(0.0)));
@@ -135,7 +139,8 @@ HWY_INLINE Of3<R> checker_color(const Checker& checker, const CompiledBody& body
 
 template <class R>
 HWY_INLINE Of3<R> paint_color(const Paint& paint, const CompiledBody& body, const LocalPointOf<R>& p) {
-  if (const auto* color = std::get_if<Color>(&paint)) return of<R>(*color);
+  const auto* color = std::get_if<Color>(&paint);
+  if (!is_built_in(Feature::checker) || color) return of<R>(*color);
   return checker_color(std::get<Checker>(paint), body, p);
 }
 

@@ -23,6 +23,7 @@ struct Column3 {
 struct SurfaceOptions {
   Shading shading = Shading::phong;
   bool smooth_terminator = true;  // light and shadow of rounded surfaces are those of what they stand for
+  bool casts_shadows = true;      // SurfaceColumns::start is asked for
   const Vec4* viewer = nullptr;   // whoever looks at all of them, as way_to_viewer has him; null: along the rays
 };
 
@@ -49,9 +50,10 @@ struct LightColumns {
   Column distance;                   // likewise; normalised units, infinite for a directional light
   std::vector<uint8_t> is_at_light;  // the light lies at the very place
 };
-// REQUIRES: surfaces of the scene, and their number.
+// casts_shadow: to_light and distance are those of shadow rays; else of the place itself. REQUIRES: surfaces of the
+// scene, and their number.
 void light_surfaces(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
-                    size_t count, LightColumns& out);
+                    size_t count, bool casts_shadow, LightColumns& out);
 
 // The mirror directions.
 void mirror_surfaces(const SurfaceColumns& surfaces, size_t count, Column3& out);

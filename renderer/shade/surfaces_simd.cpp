@@ -87,7 +87,8 @@ class SurfaceMaker {
     }
     const CompiledBody& body = scene_.bodies[index];
     const CompiledMaterial& material = scene_.materials[body.material];
-    LaneSurfaces out = body.kind == BodyKind::mesh ? on_mesh(body, source) : on_solid(body, source);
+    const bool is_mesh = is_built_in(Feature::triangles) && body.kind == BodyKind::mesh;
+    LaneSurfaces out = is_mesh ? on_mesh(body, source) : on_solid(body, source);
     out.gloss = {of<Lanes>(material.source.specular), Lanes(material.source.shininess),
                  mask_of(material.is_specular ? ~0u : 0u)};
     return out;
@@ -117,7 +118,7 @@ class SurfaceMaker {
     out.surface = seen(body, point_of_triangle(triangle, has_normals, u, v));
     out.start = out.surface.position;
     out.is_rounded = mask_of(is_rounded(has_normals) ? ~0u : 0u);
-    if (is_rounded(has_normals))
+    if (is_built_in(Feature::shadows) && options_.casts_shadows && is_rounded(has_normals))
       out.start = rounded_start(body, triangle, u, v, out.surface.position, out.surface.from_outside);
     return out;
   }
@@ -180,7 +181,7 @@ void make_surface_columns(const CompiledScene& scene, std::span<const BoundedRay
 }
 
 void light_surface_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
-                           size_t count, LightColumns& out) {
+                           size_t count, bool casts_shadow, LightColumns& out) {
   for (size_t i = 0; i < count; i += kLanes) {
     SurfaceOf<Lanes> surface;
     surface.position = load(surfaces.position, i);
@@ -194,7 +195,7 @@ void light_surface_columns(const CompiledScene& scene, const CompiledLight& ligh
     store(sample.diffuse + sample.specular, out.light, i);
     store(sample.way.distance == Lanes(0.0), out.is_at_light, i);
     LightWayOf<Lanes> way = sample.way;
-    if (light.kind == LightKind::point && any(is_rounded)) {
+    if (is_built_in(Feature::shadows) && casts_shadow && !is_directional(light) && any(is_rounded)) {
       const auto lifted = way_to(light, load(surfaces.start, i));
       const LaneMask is_lifted = is_rounded & (lifted.distance > Lanes(0.0));
       way.to_light = select(is_lifted, lifted.to_light, way.to_light);
@@ -263,12 +264,12 @@ Surface surface_of(const CompiledScene& scene, const SurfaceColumns& surfaces, c
 }
 
 void light_surfaces(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
-                    size_t count, LightColumns& out) {
+                    size_t count, bool casts_shadow, LightColumns& out) {
   make_room(out.light, count);
   make_room(out.to_light, count);
   out.distance.resize(with_room(count));
   out.is_at_light.resize(with_room(count));
-  HWY_DYNAMIC_DISPATCH(light_surface_columns)(scene, light, surfaces, count, out);
+  HWY_DYNAMIC_DISPATCH(light_surface_columns)(scene, light, surfaces, count, casts_shadow, out);
 }
 
 void mirror_surfaces(const SurfaceColumns& surfaces, size_t count, Column3& out) {

@@ -153,6 +153,7 @@ class TileKernel {
     }
     const SurfaceOptions options = {.shading = spec_.shading,
                                     .smooth_terminator = spec_.terminator == Terminator::smooth,
+                                    .casts_shadows = kCan.shadows,
                                     .viewer = job_.first_hits ? &viewer_ : nullptr};
     make_surfaces(scene_, rays, hits_, options, surfaces_);
     for (size_t i = 0; i < rays.size(); ++i) radiance_[paths[i].sample] += paths[i].weight * own_light(i);
@@ -242,9 +243,9 @@ class TileKernel {
   // Adds what one light brings to the hits, where nothing stands between.
   void add_light(size_t l, std::span<const BoundedRay> rays, std::span<const Path> paths) {
     const CompiledLight& source = scene_.lights[l];
-    light_surfaces(scene_, source, surfaces_, rays.size(), lit_);
-    if (spec_.shading != Shading::phong) light_by_face(l, rays, paths);
     const bool casts_shadow = kCan.shadows && source.shadow && spec_.shadows;
+    light_surfaces(scene_, source, surfaces_, rays.size(), casts_shadow, lit_);
+    if (spec_.shading != Shading::phong) light_by_face(l, rays, paths);
     for (size_t i = 0; i < rays.size(); ++i) {
       if (!hits_[i].is_hit()) continue;
       counts_.lights_on_hits += lit_.is_at_light[i];

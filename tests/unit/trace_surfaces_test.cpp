@@ -107,7 +107,7 @@ TEST_F(Surfaces, AreLitAsOneHitIs) {
     int differing = 0, lit = 0;
     for (const CompiledLight& light : compiled_->lights) {
       LightColumns all;
-      light_surfaces(*compiled_, light, columns, rays_.size(), all);
+      light_surfaces(*compiled_, light, columns, rays_.size(), true, all);
       for (size_t i = 0; i < rays_.size(); ++i) {
         if (!hits_[i].is_hit()) continue;
         const Surface surface = make_surface(*compiled_, rays_[i].ray, hits_[i]);
