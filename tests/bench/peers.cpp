@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/embree_rays.h"
+#include "tests/bench/frame.h"
 #include "tests/bench/timing.h"
 #include "tests/bench/waves.h"
 
@@ -51,17 +52,26 @@ std::string compare_with_embree(const std::string& name, const std::string& docu
               "frame, EB/ours", "traced, EB/ours", "other hits");
   struct Kind {
     const char* name;
-    FrameSpec spec;
+    int max_depth;
+    size_t shadow_lights;  // so many cast shadows; the rest of them light without
   };
   Json rows = Json::array();
-  for (const Kind& kind : {Kind{"primary", {0, 0}}, Kind{"+ 1 shadow", {0, 1}}, Kind{"Whitted", {3, 2}}}) {
-    const std::vector<Wave> waves = waves_of(*scene, plan, kind.spec, pool);
+  for (const Kind& kind : {Kind{"primary", 0, 0}, Kind{"+ 1 shadow", 0, 1}, Kind{"Whitted", 3, 2}}) {
+    Scene of_kind = parsed.scene;
+    for (size_t i = 0; i < of_kind.lights.size(); ++i) of_kind.lights[i].shadow = i < kind.shadow_lights;
+    View view = parsed.view;
+    view.render.max_depth = kind.max_depth;
+    const auto lit = compile_scene(of_kind, pool);
+    const ViewPlan lit_plan = plan_view(*lit, view);
+    const std::vector<Wave> waves = waves_of(*lit, lit_plan, pool);
     const std::array jobs = {embree.prepare(waves, EmbreeMode::single), embree.prepare(waves, EmbreeMode::packets),
                              embree.prepare(waves, EmbreeMode::stream)};
     Times times;
+    Film film(view.image.width, view.image.height);
+    film.grow(1);
     for (int round = 0; round < rounds; ++round) {
-      times.frame.push_back(seconds_of([&] { (void)shade_frame(*scene, plan, kind.spec, pool); }));
-      times.traced.push_back(seconds_of([&] { trace_waves(*scene, waves, pool); }));
+      times.frame.push_back(seconds_of([&] { render_frame(*lit, lit_plan, pool, film); }));
+      times.traced.push_back(seconds_of([&] { trace_waves(*lit, waves, pool); }));
       times.single.push_back(embree.run(*jobs[0], pool));
       times.packets.push_back(embree.run(*jobs[1], pool));
       times.stream.push_back(embree.run(*jobs[2], pool));

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// plan_frame FEATURE FRAMES WIDTH: renders a scene that uses every feature but one, tile by tile on one thread by the
-// kernel that its plan chooses, and prints the seconds of each frame and a sum of all its samples. It is built as it
+// plan_frame FEATURE FRAMES WIDTH: renders a scene that uses every feature but one, on one thread, by the kernel
+// that its plan chooses, and prints the seconds of each frame and a sum of all its samples. It is built as it
 // is, and once more for every feature from kernels that do not know it: tests/bench/plan_proof sets them side by side.
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "renderer/compile/compile.h"
 #include "renderer/scene/parse.h"
-#include "renderer/trace/tile_job.h"
+#include "tests/bench/frame.h"
 #include "tests/bench/timing.h"
 
 namespace tilelight::bench {
@@ -65,27 +63,10 @@ int run(std::string_view feature, int frames, int width) {
     std::fprintf(stderr, "plan_frame: the scene has %s\n", std::string(feature).c_str());
     return 2;
   }
-  const Kernel kernel = kernel_of(plan.variant);
-  const EyeMedia eye_media(*scene, plan);
   for (int frame = 0; frame < frames; ++frame) {
     Film film(width, width);
     film.grow(1);
-    TileCounts counts;
-    const double seconds = seconds_of([&] {
-      constexpr int kTilePx = 32;
-      for (int i = 0; i < tile_count(width, width, kTilePx); ++i) {
-        std::vector<CellWork> cells;
-        for_each_cell(tile_rect(i, width, width, kTilePx),
-                      [&](const TileRect& cell) { cells.push_back({.rect = cell}); });
-        TileView tile = film.view();
-        kernel({.scene = scene.get(),
-                .plan = &plan,
-                .eye_media = &eye_media,
-                .film = &tile,
-                .cells = cells,
-                .counts = &counts});
-      }
-    });
+    const double seconds = seconds_of([&] { render_frame(*scene, plan, pool, film); });
     double sum = 0.0;
     for (int i = 0; i < 3 * width * width; ++i) sum += film.planes()[0][i];
     std::printf("%.9f %.17g\n", seconds, sum);

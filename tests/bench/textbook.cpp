@@ -88,7 +88,7 @@ std::string compare_with_textbook(const std::string& name, const std::string& do
               static_cast<long long>(plan.plan.triangles_instanced), kEvery, "rays", "rays", "ours Mrays/s",
               "book Mrays/s", "book / ours, time", "other answers");
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Wave& all : waves_of(*scene, plan, {3, 2}, pool)) {
+  for (const Wave& all : waves_of(*scene, plan, pool)) {
     Wave wave{all.depth, all.any_hit, {}};
     for (size_t i = 0; i < all.batches.size(); i += kEvery) wave.batches.push_back(all.batches[i]);
     std::vector<double> ours_s, book_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Waves: every ray that a Whitted frame asks a tracer for, in the batches and the order in which the renderer asks, so
-// that several tracers can be timed on the same rays. And the frame itself, without a film.
+// that several tracers can be timed on the same rays.
 #pragma once
 
 #include <functional>
@@ -22,19 +22,11 @@ struct Wave {
   int64_t rays() const;
 };
 
-struct FrameSpec {
-  int max_depth = 0;
-  int shadow_lights = 0;  // the first so many lights cast shadows; the rest of them light without
-};
+// The waves of one sample a pixel: primary rays, their shadow rays light by light, the first reflections, ... as deep
+// as the plan's view has them. REQUIRES: nothing in the scene lets light through.
+std::vector<Wave> waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
 
-// The waves of one sample a pixel: primary rays, their shadow rays light by light, the first reflections, ...
-// REQUIRES: nothing in the scene lets light through.
-std::vector<Wave> waves_of(const CompiledScene& scene, const ViewPlan& plan, const FrameSpec& spec, TilePool& pool);
-
-// The same work with its shading, tile by tile. Returns a sum of all radiance, so that nothing is optimised away.
-double shade_frame(const CompiledScene& scene, const ViewPlan& plan, const FrameSpec& spec, TilePool& pool);
-
-// Both by our own tracer.
+// By our own tracer.
 void trace_waves(const CompiledScene& scene, const std::vector<Wave>& waves, TilePool& pool);
 
 }  // namespace tilelight::bench
