@@ -66,8 +66,7 @@ HWY_INLINE LightWayOf<R> way_to(const CompiledLight& light, const Of3<R>& place)
   if (is_directional(light)) return {of<R>(light.to_light), R(std::numeric_limits<double>::infinity())};
   const Of3<R> path = of<R>(light.position) - place;
   const R distance = length(path);
-  const R scale = select(distance > R(0.0), distance, R(1.0));
-  return {{path.x / scale, path.y / scale, path.z / scale}, distance};
+  return {(R(1.0) / select(distance > R(0.0), distance, R(1.0))) * path, distance};
 }
 
 // distance: normalised; K is in the user's units.

@@ -186,29 +186,44 @@ class TileKernel {
 
   void start_batch() {
     if (levels_.empty()) levels_.emplace_back();
-    Level& primary = levels_[0];
-    primary.clear();
-    first_hits_.clear();
     enter_eye_media();
     points_.clear();
     for_each_sample([&](int x, int y, uint32_t index) {
       const SamplePoint p = job_.first_hits ? job_.first_hits->place(x, y, index) : place_sample(spec_, x, y, index);
       points_.emplace_back(x + p.x, y + p.y);
     });
-    primary.rays.resize(points_.size());
-    primary.paths.resize(points_.size());
-    aim_eye_rays(plan_.eye, points_, primary.rays);
-    uint32_t sample = 0;
+    const size_t count = points_.size();
+    start_paths(count);
+    aim_eye_rays(plan_.eye, points_, levels_[0].rays);
+    if (job_.first_hits) find_first_hits();
+    if constexpr (kCan.glass) {
+      for (size_t i = 0; i < count; ++i) levels_[0].paths[i].media = media_at(levels_[0].rays[i].ray.origin);
+    }
+    counts_.primary += static_cast<int64_t>(count);
+    radiance_.assign(count, Color(0.0));
+    spent_.assign(count, 0);
+    untraced_.assign(count, 0.0);
+  }
+
+  // Primary rays and paths as they start. Only glass ever changes them; without it those of the last batch are good.
+  void start_paths(size_t count) {
+    Level& primary = levels_[0];
+    if constexpr (kCan.glass) primary.clear();
+    const size_t known = primary.paths.size();
+    primary.rays.resize(count);
+    primary.paths.resize(count);
+    for (size_t i = known; i < count; ++i) {
+      Path& path = primary.paths[i];
+      path.weight = Color(1.0), path.sample = static_cast<uint32_t>(i), path.media = MediaSets::kOpenAir;
+      path.depth = 0, path.kind = "primary";
+    }
+  }
+
+  void find_first_hits() {
+    first_hits_.clear();
     for_each_sample([&](int x, int y, uint32_t index) {
-      const Ray& ray = primary.rays[sample].ray;
-      if (job_.first_hits) first_hits_.push_back(job_.first_hits->at(x, y, index, ray));
-      primary.paths[sample] = {Color(1.0), sample, media_at(ray.origin), 0, "primary"};
-      ++sample;
+      first_hits_.push_back(job_.first_hits->at(x, y, index, levels_[0].rays[first_hits_.size()].ray));
     });
-    counts_.primary += sample;
-    radiance_.assign(sample, Color(0.0));
-    spent_.assign(sample, 0);
-    untraced_.assign(sample, 0.0);
   }
 
   void enter_eye_media() {
