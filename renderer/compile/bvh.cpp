@@ -3,405 +3,145 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
+
+#include "renderer/compile/bvh_binary.h"
 
 namespace tilelight {
 namespace {
 
-constexpr uint32_t kMostBins = 16;
-// Under this depth the split falls back to halves by index, so the tree never gets deeper than about 64 levels, also
-// for a hundred thousand equal boxes.
-constexpr int kMaxSahDepth = 40;
-// A leaf is split only if that takes this share of its cost away: small leaves cost memory, and nodes above them.
-constexpr float kWorth = 0.5f;
-// Boxes. Larger ranges are split by all threads together, a chunk at a time; smaller ones each by one thread.
-constexpr uint32_t kTogetherMin = 1 << 15, kChunk = 1 << 13;
-
-// Four floats that a compiler keeps in one register (GCC's and Clang's vector extension); the last is idle.
-using Float4 = float __attribute__((vector_size(16)));
-
-Float4 min_of(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 max_of(Float4 a, Float4 b) { return a > b ? a : b; }
-
-constexpr float kFarOut = std::numeric_limits<float>::infinity();
-
-struct Bounds {
-  Float4 lo, hi;
-
-  static Bounds none() {
-    constexpr Float4 kFar = {kFarOut, kFarOut, kFarOut, kFarOut};
-    return {kFar, -kFar};
-  }
-  void grow(const Bounds& b) { lo = min_of(lo, b.lo), hi = max_of(hi, b.hi); }
-  void grow(Float4 p) { lo = min_of(lo, p), hi = max_of(hi, p); }
-  // 0 for none at all.
-  float half_area() const {
-    const Float4 d = hi - lo;
-    return d[0] >= 0.0f ? d[0] * d[1] + d[1] * d[2] + d[2] * d[0] : 0.0f;
-  }
+// A node of the binary tree: of its top, or of a subtree.
+struct BinaryPlace {
+  const std::vector<BinaryNode>* nodes;
+  int index;
+  const BinaryNode& node() const { return (*nodes)[static_cast<size_t>(index)]; }
+  // How much there is to gain by opening it; negative: it is a leaf.
+  float worth() const { return node().left < 0 ? -1.0f : node().bounds.half_area(); }
 };
 
-float round_down(double x) {
-  const float f = static_cast<float>(x);
-  return f <= x ? f : std::nextafterf(f, -kFarOut);
-}
-float round_up(double x) {
-  const float f = static_cast<float>(x);
-  return f >= x ? f : std::nextafterf(f, kFarOut);
-}
-
-// A box and its index, which lies in the bits of the idle place.
-class Item {
- public:
-  Item() = default;
-  Item(const Box& box, uint32_t index) {
-    for (int axis = 0; axis < 3; ++axis)
-      bounds_.lo[axis] = round_down(box.lo[axis]), bounds_.hi[axis] = round_up(box.hi[axis]);
-    bounds_.lo[3] = std::bit_cast<float>(index + kOne);
-    bounds_.hi[3] = 0.0f;
-  }
-  const Bounds& bounds() const { return bounds_; }
-  Float4 twice_middle() const { return bounds_.lo + bounds_.hi; }
-  uint32_t index() const { return std::bit_cast<uint32_t>(static_cast<float>(bounds_.lo[3])) - kOne; }
-
- private:
-  static constexpr uint32_t kOne =
-      0x3F80'0000;  // the bits of 1.0: numbers near 0 would slow the arithmetic beside them
-  Bounds bounds_;
+// A part of the wide tree, with its own count of nodes and leaves.
+struct Fragment {
+  std::vector<WideBvh::Node> nodes;
+  std::vector<WideBvh::Leaf> leaves;
+  int depth = 0;
 };
 
-struct Range {
-  uint32_t first = 0, count = 0;
-  uint32_t end() const { return first + count; }
-};
-
-struct BinaryNode {
-  Bounds bounds;
-  Range range;
-  int left = -1, right = -1;  // -1: a leaf
-};
-
-// What the items of a range span.
-struct Extent {
-  Bounds bounds = Bounds::none(), middles = Bounds::none();  // middles: of all twice_middle()
-  bool has_alone = false;
-  void grow(const Extent& other) {
-    bounds.grow(other.bounds), middles.grow(other.middles);
-    has_alone |= other.has_alone;
-  }
-};
-
-// Bins by an item's middle, along every axis.
-struct Binning {
-  uint32_t count;  // of bins
-  Float4 lo, scale;
-  bool is_flat[3];  // all middles agree
-
-  Binning(const Bounds& middles, uint32_t items) : count(std::min(kMostBins, items / 4 + 4)), lo(middles.lo) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const float extent = middles.hi[axis] - middles.lo[axis];
-      scale[axis] = static_cast<float>(count) / extent;
-      is_flat[axis] = !(extent > 0.0f) || !std::isfinite(scale[axis]);
-    }
-    scale[3] = 0.0f;
-  }
-  uint32_t bin_of(float place) const { return std::min(count - 1, static_cast<uint32_t>(place)); }
-  uint32_t bin_of(const Item& item, int axis) const {
-    return bin_of((item.twice_middle()[axis] - lo[axis]) * scale[axis]);
-  }
-};
-
-class Bins {
- public:
-  explicit Bins(const Binning& binning) : binning_(binning) {
-    for (auto& axis : bounds_) std::fill_n(axis.begin(), binning.count, Bounds::none());
-  }
-  void add(const Item& item) {
-    const Float4 place = (item.twice_middle() - binning_.lo) * binning_.scale;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      if (binning_.is_flat[axis]) continue;
-      const uint32_t bin = binning_.bin_of(place[axis]);
-      bounds_[axis][bin].grow(item.bounds());
-      ++counts_[axis][bin];
-    }
-  }
-  void grow(const Bins& other) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      for (size_t b = 0; b < binning_.count; ++b) {
-        bounds_[axis][b].grow(other.bounds_[axis][b]);
-        counts_[axis][b] += other.counts_[axis][b];
-      }
-    }
-  }
-  const Bounds& bounds(size_t axis, size_t bin) const { return bounds_[axis][bin]; }
-  uint32_t count(size_t axis, size_t bin) const { return counts_[axis][bin]; }
-
- private:
-  const Binning binning_;
-  std::array<std::array<Bounds, kMostBins>, 3> bounds_;
-  std::array<std::array<uint32_t, kMostBins>, 3> counts_{};
-};
-
-struct Split {
-  int axis = -1;     // -1: none
-  uint32_t bin = 0;  // at which the right side begins
-  float cost = kFarOut;
-};
-
-class Builder {
- public:
-  Builder(const BoxSource& boxes, int max_leaf, TilePool& pool)
-      : pool_(pool), max_leaf_(static_cast<uint32_t>(max_leaf)), alone_from_(boxes.alone_from), items_(boxes.count) {
-    in_chunks({0, boxes.count}, [&](size_t, Range r) {
-      for (uint32_t i = r.first; i < r.end(); ++i) items_[i] = Item(boxes.box_of(i), i);
-    });
-  }
-
-  std::vector<BinaryNode> build() {
-    std::vector<BinaryNode> top;
-    const Range all{0, static_cast<uint32_t>(items_.size())};
-    split_top(all, extent_together(all), 0, std::max<uint32_t>(all.count / 32, 1024), top);
-    pool_.parallel_for(static_cast<int64_t>(jobs_.size()), Priority::normal, [&](int64_t i) {
-      Job& job = jobs_[static_cast<size_t>(i)];
-      split(job.range, extent_of(job.range), job.depth, job.nodes);
-    });
-    for (const Job& job : jobs_) graft(top, job);
-    return top;
-  }
-
-  std::vector<uint32_t> order() const {
-    std::vector<uint32_t> order;
-    order.reserve(items_.size());
-    for (const Item& item : items_) order.push_back(item.index());
-    return order;
-  }
-
- private:
-  // A subtree whose split is still to be done.
-  struct Job {
-    Range range;
-    int depth, place;               // place: of its root in the top
-    std::vector<BinaryNode> nodes;  // the finished subtree, [0] its root
-  };
-
-  // work(chunk, range) for every chunk of a range, on all threads if it is large.
-  template <class Work>
-  void in_chunks(Range r, const Work& work) {
-    const uint32_t chunks = (r.count + kChunk - 1) / kChunk;
-    const auto one = [&](int64_t c) {
-      const uint32_t first = r.first + static_cast<uint32_t>(c) * kChunk;
-      work(static_cast<size_t>(c), Range{first, std::min(kChunk, r.end() - first)});
-    };
-    if (r.count >= kTogetherMin) {
-      pool_.parallel_for(chunks, Priority::normal, one);
-    } else {
-      for (uint32_t c = 0; c < chunks; ++c) one(c);
-    }
-  }
-
-  Extent extent_of(Range r) const {
-    Extent out;
-    for (uint32_t i = r.first; i < r.end(); ++i) {
-      out.bounds.grow(items_[i].bounds());
-      out.middles.grow(items_[i].twice_middle());
-      out.has_alone |= items_[i].index() >= alone_from_;
-    }
-    return out;
-  }
-  Extent extent_together(Range r) {
-    std::vector<Extent> parts((r.count + kChunk - 1) / kChunk);
-    in_chunks(r, [&](size_t c, Range part) { parts[c] = extent_of(part); });
-    Extent out;
-    for (const Extent& part : parts) out.grow(part);
-    return out;
-  }
-
-  void add_all(Range r, Bins& bins) const {
-    for (uint32_t i = r.first; i < r.end(); ++i) bins.add(items_[i]);
-  }
-  Bins bins_of(Range r, const Binning& binning) const {
-    Bins bins(binning);
-    add_all(r, bins);
-    return bins;
-  }
-  Bins bins_together(Range r, const Binning& binning) {
-    std::vector<Bins> parts((r.count + kChunk - 1) / kChunk, Bins(binning));
-    in_chunks(r, [&](size_t c, Range part) { add_all(part, parts[c]); });
-    Bins out(binning);
-    for (const Bins& part : parts) out.grow(part);
-    return out;
-  }
-
-  // Splits until subtrees are small enough to be jobs of their own.
-  int split_top(Range r, const Extent& extent, int depth, uint32_t job_size, std::vector<BinaryNode>& nodes) {
-    const int me = static_cast<int>(nodes.size());
-    nodes.push_back({extent.bounds, r});
-    if (r.count <= job_size) {
-      jobs_.push_back({r, depth, me, {}});
-      return me;
-    }
-    const Binning binning(extent.middles, r.count);
-    const Split best = is_by_index(binning, depth) ? Split{} : best_split(bins_together(r, binning), binning);
-    const uint32_t mid = best.axis < 0 ? r.count / 2 : divide_together(r, binning, best);
-    const Range a{r.first, mid}, b{r.first + mid, r.count - mid};
-    const int left = split_top(a, extent_together(a), depth + 1, job_size, nodes);
-    const int right = split_top(b, extent_together(b), depth + 1, job_size, nodes);
-    nodes[me].left = left, nodes[me].right = right;
-    return me;
-  }
-
-  int split(Range r, const Extent& extent, int depth, std::vector<BinaryNode>& nodes) {
-    const int me = static_cast<int>(nodes.size());
-    nodes.push_back({extent.bounds, r});
-    if (r.count <= 1) return me;
-    const bool fits = r.count <= max_leaf_ && !extent.has_alone;
-    const Binning binning(extent.middles, r.count);
-    const Split best = is_by_index(binning, depth) ? Split{} : best_split(bins_of(r, binning), binning);
-    if (fits && !(best.cost < kWorth * extent.bounds.half_area())) return me;
-    const uint32_t mid = best.axis < 0 ? r.count / 2 : divide(r, binning, best);
-    const Range a{r.first, mid}, b{r.first + mid, r.count - mid};
-    const int left = split(a, extent_of(a), depth + 1, nodes);
-    const int right = split(b, extent_of(b), depth + 1, nodes);
-    nodes[me].left = left, nodes[me].right = right;
-    return me;
-  }
-
-  static bool is_by_index(const Binning& binning, int depth) {
-    return depth >= kMaxSahDepth || (binning.is_flat[0] && binning.is_flat[1] && binning.is_flat[2]);
-  }
-
-  void graft(std::vector<BinaryNode>& top, const Job& job) {
-    const int base = static_cast<int>(top.size()) - 1;  // node i lands at base + i for i >= 1, the root at its place
-    for (size_t i = 0; i < job.nodes.size(); ++i) {
-      BinaryNode n = job.nodes[i];
-      if (n.left >= 0) n.left += base, n.right += base;
-      if (i == 0) {
-        top[static_cast<size_t>(job.place)] = n;
-      } else {
-        top.push_back(n);
-      }
-    }
-  }
-
-  // Reorders the range and returns the size of its left part.
-  uint32_t divide(Range r, const Binning& binning, const Split& split) {
-    Item* first = items_.data() + r.first;
-    Item* mid = std::partition(first, first + r.count,
-                               [&](const Item& item) { return binning.bin_of(item, split.axis) < split.bin; });
-    return static_cast<uint32_t>(mid - first);
-  }
-  // The order depends on the chunks, which depend on the range alone.
-  uint32_t divide_together(Range r, const Binning& binning, const Split& split) {
-    const size_t chunks = (r.count + kChunk - 1) / kChunk;
-    std::vector<uint32_t> left(chunks + 1), right(chunks + 1);
-    in_chunks(r, [&](size_t c, Range part) {
-      left[c + 1] = divide(part, binning, split);
-      right[c + 1] = part.count - left[c + 1];
-    });
-    for (size_t c = 0; c < chunks; ++c) left[c + 1] += left[c], right[c + 1] += right[c];
-    const uint32_t mid = left[chunks];
-    other_.resize(items_.size());
-    in_chunks(r, [&](size_t c, Range part) {
-      const Item* from = items_.data() + part.first;
-      const uint32_t here = left[c + 1] - left[c];
-      std::copy_n(from, here, other_.data() + r.first + left[c]);
-      std::copy_n(from + here, part.count - here, other_.data() + r.first + mid + right[c]);
-    });
-    in_chunks(r, [&](size_t, Range part) {
-      std::copy_n(other_.data() + part.first, part.count, items_.data() + part.first);
-    });
-    return mid;
-  }
-
-  Split best_split(const Bins& bins, const Binning& binning) const {
-    Split best;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      if (binning.is_flat[axis]) continue;
-      std::array<float, kMostBins> right_cost;
-      Bounds box = Bounds::none();
-      uint32_t count = 0;
-      for (uint32_t b = binning.count - 1; b > 0; --b) {
-        box.grow(bins.bounds(axis, b));
-        count += bins.count(axis, b);
-        right_cost[b] = count == 0 ? kFarOut : box.half_area() * blocks_of(count);
-      }
-      box = Bounds::none();
-      count = 0;
-      for (uint32_t b = 1; b < binning.count; ++b) {
-        box.grow(bins.bounds(axis, b - 1));
-        count += bins.count(axis, b - 1);
-        if (count == 0) continue;
-        const float cost = box.half_area() * blocks_of(count) + right_cost[b];
-        if (cost < best.cost) best = {static_cast<int>(axis), b, cost};
-      }
-    }
-    return best;
-  }
-
-  // A leaf is tested a block of max_leaf boxes at a time, so cost goes by blocks.
-  float blocks_of(uint32_t count) const { return static_cast<float>((count + max_leaf_ - 1) / max_leaf_); }
-
-  TilePool& pool_;
-  const uint32_t max_leaf_, alone_from_;
-  std::vector<Item> items_, other_;
-  std::vector<Job> jobs_;
-};
-
+// Collapses the top on one thread and what hangs below it, a subtree's part each, on all threads.
 class Collapser {
  public:
-  Collapser(const std::vector<BinaryNode>& binary, WideBvh& out) : binary_(binary), out_(out) {}
+  explicit Collapser(const BinaryTree& binary) : binary_(binary) {}
 
-  uint32_t make(int root, int depth) {
-    out_.depth = std::max(out_.depth, depth);
-    const auto index = static_cast<uint32_t>(out_.nodes.size());
-    out_.nodes.emplace_back();
-    std::array<int, WideBvh::kWidth> children;
-    const int count = open(root, children);
-    std::array<uint32_t, WideBvh::kWidth> refs{};
-    for (int i = 0; i < WideBvh::kWidth; ++i) refs[i] = i < count ? reference(children[i], depth) : WideBvh::kEmpty;
-    WideBvh::Node& node = out_.nodes[index];
-    for (int i = 0; i < WideBvh::kWidth; ++i) {
-      node.child[i] = refs[i];
-      for (int axis = 0; axis < 3; ++axis) {
-        const bool used = i < count;
-        node.bounds[0][axis][i] =
-            used ? round_down(double{binary_[children[i]].bounds.lo[axis]} - WideBvh::kWiden) : WideBvh::kNowhere;
-        node.bounds[1][axis][i] =
-            used ? round_up(double{binary_[children[i]].bounds.hi[axis]} + WideBvh::kWiden) : -WideBvh::kNowhere;
+  void make(TilePool& pool, WideBvh& out) {
+    std::vector<Fragment> parts(1);
+    make(root_of(0), 1, parts[0], &below_);
+    parts.resize(1 + below_.size());
+    const auto for_all = [&](const auto& work) {
+      pool.parallel_for(static_cast<int64_t>(below_.size()), Priority::normal,
+                        [&](int64_t i) { work(static_cast<size_t>(i)); });
+    };
+    for_all([&](size_t i) {
+      parts[1 + i].nodes.reserve(below_[i].root.node().range.count / 8);
+      parts[1 + i].leaves.reserve(below_[i].root.node().range.count / 6);
+      make(below_[i].root, below_[i].depth, parts[1 + i], nullptr);
+    });
+    std::vector<uint32_t> node_from, leaf_from;
+    uint32_t nodes = 0, leaves = 0;
+    for (const Fragment& part : parts) {
+      node_from.push_back(nodes), leaf_from.push_back(leaves);
+      nodes += static_cast<uint32_t>(part.nodes.size()), leaves += static_cast<uint32_t>(part.leaves.size());
+      out.depth = std::max(out.depth, part.depth);
+    }
+    for (size_t i = 0; i < below_.size(); ++i) parts[0].nodes[below_[i].node].child[below_[i].child] = node_from[1 + i];
+    out.nodes.resize(nodes);
+    out.leaves.resize(leaves);
+    std::copy(parts[0].nodes.begin(), parts[0].nodes.end(), out.nodes.begin());
+    std::copy(parts[0].leaves.begin(), parts[0].leaves.end(), out.leaves.begin());
+    for_all([&](size_t i) {
+      Fragment& part = parts[1 + i];
+      for (WideBvh::Node& node : part.nodes) {
+        for (uint32_t& child : node.child)
+          if (child != WideBvh::kEmpty) child += child & WideBvh::kLeafBit ? leaf_from[1 + i] : node_from[1 + i];
       }
+      std::copy(part.nodes.begin(), part.nodes.end(), out.nodes.begin() + node_from[1 + i]);
+      std::copy(part.leaves.begin(), part.leaves.end(), out.leaves.begin() + leaf_from[1 + i]);
+    });
+  }
+
+ private:
+  // What the top leaves to be collapsed by others.
+  struct Below {
+    BinaryPlace root;
+    int depth;
+    uint32_t node;  // of the top's fragment, and which child of it
+    int child;
+  };
+  using Children = std::array<BinaryPlace, WideBvh::kWidth>;
+
+  // Where the top's node really lies.
+  BinaryPlace root_of(int top_index) const {
+    const BinaryNode& node = binary_.top[static_cast<size_t>(top_index)];
+    if (node.subtree < 0) return {&binary_.top, top_index};
+    return {&binary_.subtrees[static_cast<size_t>(node.subtree)], 0};
+  }
+  BinaryPlace child_of(const BinaryPlace& place, int index) const {
+    return place.nodes == &binary_.top ? root_of(index) : BinaryPlace{place.nodes, index};
+  }
+
+  // below: where to put what lies in subtrees; null: nothing is put off.
+  uint32_t make(const BinaryPlace& root, int depth, Fragment& out, std::vector<Below>* below) const {
+    out.depth = std::max(out.depth, depth);
+    const auto index = static_cast<uint32_t>(out.nodes.size());
+    out.nodes.emplace_back();
+    Children children;
+    const int count = open(root, children);
+    for (int i = 0; i < WideBvh::kWidth; ++i) {
+      const bool used = i < count;
+      if (used)
+        set_bounds(children[i].node().bounds, i, out.nodes[index]);
+      else
+        set_empty(i, out.nodes[index]);
+      uint32_t child = WideBvh::kEmpty;
+      if (used && children[i].node().left < 0) {
+        out.leaves.push_back(children[i].node().range);
+        child = WideBvh::kLeafBit | static_cast<uint32_t>(out.leaves.size() - 1);
+      } else if (used && below && children[i].nodes != &binary_.top) {
+        below->push_back({children[i], depth + 1, index, i});
+      } else if (used) {
+        child = make(children[i], depth + 1, out, below);
+      }
+      out.nodes[index].child[i] = child;
     }
     return index;
   }
 
- private:
+  static void set_bounds(const Bounds& bounds, int child, WideBvh::Node& node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.bounds[0][axis][child] = round_down(double{bounds.lo[axis]} - WideBvh::kWiden);
+      node.bounds[1][axis][child] = round_up(double{bounds.hi[axis]} + WideBvh::kWiden);
+    }
+  }
+  static void set_empty(int child, WideBvh::Node& node) {
+    for (int axis = 0; axis < 3; ++axis)
+      node.bounds[0][axis][child] = WideBvh::kNowhere, node.bounds[1][axis][child] = -WideBvh::kNowhere;
+  }
+
   // Opens the largest inner child until there are eight. Returns how many there are.
-  int open(int root, std::array<int, WideBvh::kWidth>& children) const {
-    children[0] = root;
+  int open(const BinaryPlace& root, Children& children) const {
+    std::array<float, WideBvh::kWidth> worth;
+    children[0] = root, worth[0] = root.worth();
     int count = 1;
     while (count < WideBvh::kWidth) {
-      int widest = -1;
-      for (int i = 0; i < count; ++i) {
-        if (binary_[children[i]].left < 0) continue;
-        if (widest < 0 || binary_[children[i]].bounds.half_area() > binary_[children[widest]].bounds.half_area())
-          widest = i;
-      }
-      if (widest < 0) break;
-      const BinaryNode& opened = binary_[children[widest]];
-      children[count++] = opened.right;
-      children[widest] = opened.left;
+      const auto widest = static_cast<int>(std::max_element(worth.begin(), worth.begin() + count) - worth.begin());
+      if (worth[widest] < 0.0f) break;
+      const BinaryPlace opened = children[widest];
+      for (const auto& [at, child] : {std::pair(widest, opened.node().left), std::pair(count, opened.node().right)})
+        children[at] = child_of(opened, child), worth[at] = children[at].worth();
+      ++count;
     }
     return count;
   }
 
-  uint32_t reference(int child, int depth) {
-    if (binary_[child].left >= 0) return make(child, depth + 1);
-    out_.leaves.push_back({binary_[child].range.first, binary_[child].range.count});
-    return WideBvh::kLeafBit | static_cast<uint32_t>(out_.leaves.size() - 1);
-  }
-
-  const std::vector<BinaryNode>& binary_;
-  WideBvh& out_;
+  const BinaryTree& binary_;
+  std::vector<Below> below_;
 };
 
 }  // namespace
@@ -409,10 +149,9 @@ class Collapser {
 WideBvh build_bvh(const BoxSource& boxes, int max_leaf, TilePool& pool) {
   WideBvh bvh;
   if (boxes.count == 0) return bvh;
-  Builder builder(boxes, max_leaf, pool);
-  const std::vector<BinaryNode> binary = builder.build();
-  bvh.order = builder.order();
-  Collapser(binary, bvh).make(0, 1);
+  BinaryTree binary = build_binary_tree(boxes, max_leaf, pool);
+  Collapser(binary).make(pool, bvh);
+  bvh.order = std::move(binary.order);
   return bvh;
 }
 

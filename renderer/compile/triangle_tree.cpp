@@ -64,10 +64,10 @@ class TreeMaker {
     tree.blocks.resize(first_items.size());
     for_all(pool, first_items.size(), [&](size_t i) { tree.blocks[i] = block_of(bvh, bvh.leaves[first_items[i]]); });
     tree.nodes = std::move(bvh.nodes);
-    for (WideBvh::Node& node : tree.nodes) {
-      for (uint32_t& child : node.child)
+    for_all(pool, tree.nodes.size(), [&](size_t i) {
+      for (uint32_t& child : tree.nodes[i].child)
         if (child != WideBvh::kEmpty && child & WideBvh::kLeafBit) child = reference[child & ~WideBvh::kLeafBit];
-    }
+    });
     return tree;
   }
 

@@ -22,6 +22,7 @@ struct alignas(32) TriangleBlock {
   float vertex[3][3][8];
   uint32_t body[8];  // kNobody in a mesh's own tree
   uint32_t prim[8];
+  TriangleBlock() {}  // leaves it as it is: a vector of them is filled by all threads
 };
 
 struct TriangleTree {

@@ -359,59 +359,5 @@ TEST_F(Compile, ABodyFarSmallerThanTheSceneHasAnInverse) {
   EXPECT_NEAR(glm::length(mote.world_from_normal * Vec3(0, 1, 0)), 1.0, 1e-15);
 }
 
-// Every box of the input lies in every box on the way to its leaf.
-void expect_nested(const WideBvh& bvh, const std::vector<Box>& boxes, uint32_t node, std::vector<int>& seen) {
-  for (int c = 0; c < WideBvh::kWidth; ++c) {
-    const uint32_t child = bvh.nodes[node].child[c];
-    if (child == WideBvh::kEmpty) continue;
-    if (!(child & WideBvh::kLeafBit)) {
-      expect_nested(bvh, boxes, child, seen);
-      continue;
-    }
-    const WideBvh::Leaf leaf = bvh.leaves[child & ~WideBvh::kLeafBit];
-    for (uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      ++seen[bvh.order[i]];
-      for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_LE(bvh.nodes[node].bounds[0][axis][c], boxes[bvh.order[i]].lo[axis]);
-        EXPECT_GE(bvh.nodes[node].bounds[1][axis][c], boxes[bvh.order[i]].hi[axis]);
-      }
-    }
-  }
-}
-
-BoxSource source_of(const std::vector<Box>& boxes) {
-  return {static_cast<uint32_t>(boxes.size()), [&boxes](uint32_t i) { return boxes[i]; }};
-}
-
-TEST_F(Compile, TheTreeHoldsEveryBoxOnceAlsoWhenAllAreEqual) {
-  std::vector<Box> spread, equal(100'000);
-  for (int i = 0; i < 40'000; ++i) {
-    Box box;
-    const Vec3 p(std::fmod(i * 0.618, 2.0) - 1, std::fmod(i * 0.414, 2.0) - 1, std::fmod(i * 0.732, 2.0) - 1);
-    box.grow(p);
-    box.grow(p + Vec3(1e-3));
-    spread.push_back(box);
-  }
-  for (Box& box : equal) box.grow(Vec3(0.25)), box.grow(Vec3(0.5));
-  for (const auto* boxes : {&spread, &equal}) {
-    const WideBvh bvh = build_bvh(source_of(*boxes), 8, pool_);
-    std::vector<int> seen(boxes->size());
-    expect_nested(bvh, *boxes, 0, seen);
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(boxes->size()));
-    EXPECT_LE(bvh.depth, 64);
-  }
-}
-
-TEST_F(Compile, TheTreeIsTheSameOnAnyNumberOfThreads) {
-  std::vector<Box> boxes;
-  for (int i = 0; i < 60'000; ++i) {
-    Box box;
-    box.grow(Vec3(std::fmod(i * 0.618, 2.0) - 1, std::fmod(i * 0.414, 2.0) - 1, 0.0));
-    boxes.push_back(box);
-  }
-  TilePool one(1), seven(7);
-  EXPECT_EQ(build_bvh(source_of(boxes), 8, one).order, build_bvh(source_of(boxes), 8, seven).order);
-}
-
 }  // namespace
 }  // namespace tilelight
