@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_compile: how long the scene's tree takes to build and how many bytes a triangle it has, beside Embree's of
 // medium quality on the same triangles where that is installed, built in turn; and what compiling the document takes as
-// a whole.
+// a whole. At last what a scene of one sphere and one light costs: to compile, and to trace through a tree of one leaf
+// beside calls of the sphere's test.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/renderer.h"
+#include "renderer/trace/trace_rays.h"
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/timing.h"
 #if TILELIGHT_WITH_EMBREE
@@ -45,6 +47,32 @@ void print_scene(char size, TilePool& pool, int rounds) {
   std::printf("\n");
 }
 
+void print_smallest(TilePool& pool) {
+  Scene document;
+  document.materials.emplace_back();
+  document.objects.emplace_back().shape = SphereShape{Vec3(0.0), 1.0};
+  document.lights.emplace_back();
+  constexpr int kRays = 4096, kRounds = 200;
+  std::vector<BoundedRay> rays(kRays);
+  for (int i = 0; i < kRays; ++i) {
+    const Vec3 eye(0.0, 0.0, 4.0), at((i % 64 - 31.5) / 24.0, (i / 64 - 31.5) / 24.0, 0.0);
+    Ray& ray = rays[static_cast<size_t>(i)].ray;
+    ray.origin = eye, ray.direction = glm::normalize(at - eye);
+  }
+  std::vector<Hit> hits(kRays);
+  std::shared_ptr<const CompiledScene> scene;
+  std::vector<double> compile_s, tree_s, alone_s;
+  for (int i = 0; i < kRounds; ++i) {
+    compile_s.push_back(seconds_of([&] { scene = compile_scene(document, pool); }));
+    tree_s.push_back(seconds_of([&] { trace_closest(*scene, rays, hits); }));
+    alone_s.push_back(seconds_of([&] {
+      for (size_t k = 0; k < rays.size(); ++k) hits[k] = trace_body(*scene, 0, rays[k].ray);
+    }));
+  }
+  std::printf("one sphere: compiled in %.4f ms; %.1f ns a ray through the tree, %.1f ns by calls of its test\n",
+              1e3 * median(compile_s), 1e9 * median(tree_s) / kRays, 1e9 * median(alone_s) / kRays);
+}
+
 }  // namespace
 }  // namespace tilelight::bench
 
@@ -65,6 +93,7 @@ int main(int argc, char** argv) {
   pool.submit(Priority::normal,
               [&] {
                 for (const char size : scenes) bench::print_scene(size, pool, rounds);
+                bench::print_smallest(pool);
               })
       .get();
   return 0;
