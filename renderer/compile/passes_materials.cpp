@@ -4,6 +4,7 @@
 
 #include "renderer/base/safe_length.h"
 #include "renderer/compile/passes.h"
+#include "renderer/compile/reach.h"
 
 namespace tilelight {
 namespace {
@@ -22,6 +23,36 @@ Color max_color(const Paint& paint) {
   if (const auto* color = std::get_if<Color>(&paint)) return *color;
   const auto& checker = std::get<Checker>(paint);
   return glm::max(checker.a, checker.b);
+}
+
+void add_shape(const CompiledBody& body, FeatureSet& f) {
+  switch (body.kind) {
+    case BodyKind::sphere:
+      f.add(Feature::spheres);
+      break;
+    case BodyKind::box:
+      f.add(Feature::boxes);
+      break;
+    case BodyKind::plane:
+      f.add(Feature::planes);
+      break;
+    case BodyKind::mesh:
+      f.add(Feature::triangles);
+      if (!body.mesh->corner_normals.empty()) f.add(Feature::smooth_normals);
+      break;
+  }
+}
+
+void add_material(const CompiledMaterial& m, bool is_lit, FeatureSet& f) {
+  if (m.is_specular && is_lit) f.add(Feature::specular);
+  if (m.is_reflective) f.add(Feature::reflection);
+  if (m.is_transmissive) {
+    f.add(Feature::transmission);
+    if (m.source.fresnel) f.add(Feature::fresnel);
+    if (m.source.priority != 0) f.add(Feature::nested_media);
+  }
+  if (std::holds_alternative<Checker>(m.source.diffuse) || std::holds_alternative<Checker>(m.source.ambient))
+    f.add(Feature::checker);
 }
 
 std::string title_of(const Light& light, size_t index) {
@@ -126,46 +157,33 @@ double find_radiance_bound(const CompiledScene& scene) {
   return std::max(sky, local / (1.0 - scene.passed_on));
 }
 
-FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {
+FeatureSet features_of(const CompiledScene& scene, const Reach& reach) {
   FeatureSet f;
-  for (const CompiledBody& body : scene.bodies) {
-    switch (body.kind) {
-      case BodyKind::sphere:
-        f.add(Feature::spheres);
-        break;
-      case BodyKind::box:
-        f.add(Feature::boxes);
-        break;
-      case BodyKind::plane:
-        f.add(Feature::planes);
-        break;
-      case BodyKind::mesh:
-        f.add(Feature::triangles);
-        if (!body.mesh->corner_normals.empty()) f.add(Feature::smooth_normals);
-        break;
-    }
+  std::vector<bool> is_worn(scene.materials.size(), false);  // by what is seen
+  bool casts_tinted = false, sees_any = false;
+  for (size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!reach.casts[i]) continue;
+    const CompiledBody& body = scene.bodies[i];
+    add_shape(body, f);
+    casts_tinted |= scene.materials[body.material].is_transmissive;
+    if (!reach.is_seen[i]) continue;
+    is_worn[body.material] = sees_any = true;
   }
-  bool one_priority = true;
-  for (const CompiledMaterial& m : scene.materials) {
-    if (m.is_specular && !scene.lights.empty()) f.add(Feature::specular);
-    if (m.is_reflective) f.add(Feature::reflection);
-    if (m.is_transmissive) {
-      f.add(Feature::transmission);
-      if (m.source.fresnel) f.add(Feature::fresnel);
-      if (m.source.priority != 0) one_priority = false;
-    }
-    if (std::holds_alternative<Checker>(m.source.diffuse) || std::holds_alternative<Checker>(m.source.ambient)) {
-      f.add(Feature::checker);
-    }
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (is_worn[i]) add_material(scene.materials[i], !scene.lights.empty(), f);
   }
-  if (f.has(Feature::transmission) && !one_priority) f.add(Feature::nested_media);
   for (const CompiledLight& light : scene.lights) {
+    if (!sees_any) break;
     f.add(light.kind == LightKind::point ? Feature::point_lights : Feature::directional_lights);
     if (light.kind == LightKind::point && scene.attenuation.mode != AttenuationMode::none) f.add(Feature::attenuation);
     if (light.shadow) f.add(Feature::shadows);
   }
-  if (f.has(Feature::shadows) && f.has(Feature::transmission)) f.add(Feature::tinted_shadows);
+  if (f.has(Feature::shadows) && casts_tinted) f.add(Feature::tinted_shadows);
+  return f;
+}
 
+FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {
+  const FeatureSet f = features_of(scene, Reach::everything(scene.bodies.size()));
   const auto say = [&](Feature feature, const char* why) {
     if (!f.has(feature)) left_out.push_back({"feature " + std::string(feature_name(feature)), why});
   };

@@ -152,7 +152,7 @@ TEST(Spend, GivesToTheCellsInWhichASampleDoesMost) {
 }
 
 TEST(Render, TheFullKernelGivesTheBytesOfTheLeanOne) {
-  // A pane of glass behind the camera switches every ability on and is never seen.
+  // A glass bead inside the floor, in the direction of view, switches every ability on and is never seen.
   constexpr const char* kLean = R"({"image": {"width": 64, "height": 48}, "render": {"samples": 1},
     "camera": {"position": [0, 2, 6], "target": [0, 0.5, 0]}, "materials": {"glass": {"diffuse": 0, "transmission": 0.9}},
     "objects": [{"type": "sphere", "center": [0, 1, 0]}, {"type": "box", "min": [-3, -1, -3], "max": [3, 0, 3]}%s]})";
@@ -167,12 +167,10 @@ TEST(Render, TheFullKernelGivesTheBytesOfTheLeanOne) {
     return std::pair(plan.plan.kernel, render->image()->rgb);
   };
   const auto lean = pixels("");
-  const auto full = pixels(R"(, {"type": "sphere", "center": [0, -2, 1], "radius": 0.1, "material": "glass"})");
+  const auto full = pixels(R"(, {"type": "sphere", "center": [0, -0.5, 1], "radius": 0.1, "material": "glass"})");
   EXPECT_EQ(lean.first, "local+shadows");
   EXPECT_EQ(full.first, "glass+shadows");
-  ASSERT_EQ(lean.second.size(), full.second.size());
-  // The hidden sphere moves the scene's centre, so the last bits of positions differ; no pixel may be seen to.
-  for (size_t i = 0; i < lean.second.size(); ++i) EXPECT_NEAR(lean.second[i], full.second[i], 1e-6);
+  EXPECT_EQ(lean.second, full.second);
 }
 
 TEST(Render, CancelStopsItAndKeepsWhatWholePassesMade) {
