@@ -13,6 +13,8 @@
 
 namespace tilelight {
 
+struct ErrorRule;
+
 // What the variance of a mean is multiplied by when its samples are doubled, where an edge crosses the pixel: n^-1.5.
 inline constexpr double kEdgeDecay = 0.35355339059327373;
 
@@ -51,20 +53,23 @@ class ErrorMap {
   std::vector<float> bounds() const;
 
  private:
-  // By distance in octaves: blocks of the shortest length, twice and four times that.
-  static constexpr int kLevels = 3;
-  using Levels = std::array<float, kLevels>;
+  using Levels = std::array<float, 3>;  // by distance of the blocks that are compared: kErrorLevels
 
+  void measure_run(const Film& film, const Image& image, const TileRect& run, const ErrorRule& rule);
+  void spread_strip(const Film& film, const TileRect& strip);
   void look_back(const Film& film);
-  float contrast(int x, int y) const;
+  // Into own_ and the planes of shown_.
+  size_t at(int x, int y) const { return static_cast<size_t>(y + 1) * stride_ + static_cast<size_t>(x + 1); }
+  std::array<const uint8_t*, 3> shown_at(int x, int y) const;
 
   int width_, height_;
+  size_t stride_;    // of the arrays that have a pixel more on every side, always 0
   double exposure_;  // a factor
   bool is_known_ = false;
   double decay_ = 1.0;
   float scale_ = 1.0f;          // of own_, once the decay is known
-  std::vector<float> own_;      // by pixel: variance if an edge crossed it, from its own samples
-  std::vector<uint8_t> shown_;  // by pixel and channel: as displayed, rounded
+  std::vector<float> own_;      // variance of a pixel if an edge crossed it, from its own samples; with a margin
+  std::vector<uint8_t> shown_;  // a plane for each channel: as displayed, rounded; with a margin
   std::vector<Levels> levels_;  // by cell: by how much its blocks differ
   std::vector<float> variances_;
   std::vector<float> decayed_;  // by cell: the sum of the variances, with the decay, before calibration

@@ -63,17 +63,18 @@ void Film::copy(const TileRect& part, const Film& from) {
 
 void Film::resolve(const TileRect& part, Image& image) const {
   const SamplePlanes from = planes();
-  for_each_cell(part, [&](const TileRect& cell) {
-    const uint32_t count = samples_[cell_at(cell.x0, cell.y0)];
-    const uint32_t blocks = blocks_in_use(count);
+  for_each_run(part, [&](const TileRect& run, uint32_t count) {
     const float n = static_cast<float>(std::max(1u, count));
-    for_each_pixel(cell, [&](int x, int y) {
-      const size_t pixel = static_cast<size_t>(y) * width_ + x;
-      for (size_t i = pixel * 3; i < pixel * 3 + 3; ++i) {
-        std::array<float, kSampleBlocks> sums{};
-        for (uint32_t block = 0; block < blocks; ++block) sums[block] = from[block][i];
-        const float sum = ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
-        image.rgb[i] = sum / n;  // not a product with 1/n: that would be rounded twice
+    with_block_count(blocks_in_use(count), [&](auto blocks) {
+      for (int y = run.y0; y < run.y1; ++y) {
+        const size_t first = (static_cast<size_t>(y) * width_ + run.x0) * 3;
+        float* const mean = image.rgb.data() + first;
+        for (size_t i = 0; i < 3 * static_cast<size_t>(run.width()); ++i) {
+          std::array<float, kSampleBlocks> sums{};
+          for (size_t block = 0; block < blocks; ++block) sums[block] = from[block][first + i];
+          const float sum = ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+          mean[i] = sum / n;  // not a product with 1/n: that would be rounded twice
+        }
       }
     });
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film: the samples of every pixel, linear RGB, in up to eight aligned blocks of each pixel's sequence. Their sum is
-// the picture, their differences tell its error (error_estimate.h). Work items write disjoint TileViews from many
+// the picture, their differences tell its error (error_map.h). Work items write disjoint TileViews from many
 // threads without locks. What a pixel holds is a function of the samples it was given, in the order of their indices:
 // any split of the same total gives the same bytes.
 #pragma once
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tilelight {
@@ -28,6 +29,7 @@ TileRect tile_rect(int index, int width, int height, int tile_px);
 
 // Pixels take samples by cells: squares of 4 by 4, anchored at the image's first pixel and cut at its last.
 inline constexpr int kCellPx = 4;
+inline constexpr int kRunPx = 8 * kCellPx;  // of cells that are worked on together, at most
 
 // visit(part of a cell, a TileRect) for every cell that meets the rectangle, row by row.
 template <class Visit>
@@ -56,6 +58,15 @@ struct Image {
 inline constexpr uint32_t kSampleBlocks = 8;
 // Length of the blocks once sample `index` (from 0) is there: 1, 1, ... 1, then 2 from index 8 on, 4 from 16 on, ...
 constexpr uint32_t sample_block_length(uint32_t index) { return std::bit_ceil(index / kSampleBlocks + 1); }
+
+// fn(std::integral_constant<int, count>), so that loops over blocks are unrolled. REQUIRES: count <= kSampleBlocks.
+template <class Fn>
+void with_block_count(uint32_t count, const Fn& fn) {
+  [&]<int... kCounts>(std::integer_sequence<int, kCounts...>) {
+    ((static_cast<uint32_t>(kCounts) == count ? fn(std::integral_constant<int, kCounts>()) : void()), ...);
+  }
+  (std::make_integer_sequence<int, kSampleBlocks + 1>());
+}
 
 // By block, the first float of its plane: the sums of one block in every pixel, laid out like an Image.
 using SamplePlanes = std::array<float*, kSampleBlocks>;
@@ -109,6 +120,22 @@ class Film {
   // Writes the mean of every pixel's samples into the image, black where there are none. Parts that share no cell may
   // be done by many threads. REQUIRES: no writer there; an image of the film's size.
   void resolve(const TileRect& part, Image& image) const;
+  // visit(rectangle, samples of each of its pixels) for all of a part: neighbours in a row of cells go together while
+  // they have as many samples, up to kRunPx pixels. Loops over a row of a run are long enough for lanes.
+  template <class Visit>
+  void for_each_run(const TileRect& part, const Visit& visit) const {
+    for_each_cell({part.x0, part.y0, part.x0 + 1, part.y1}, [&](const TileRect& first) {
+      TileRect run{part.x0, first.y0, part.x0, first.y1};
+      while (run.x1 < part.x1) {
+        const uint32_t count = samples_[cell_at(run.x1, run.y0)];
+        run.x0 = run.x1;
+        do {
+          run.x1 = std::min(run.x1 / kCellPx * kCellPx + kCellPx, part.x1);
+        } while (run.x1 < part.x1 && run.x1 + kCellPx <= run.x0 + kRunPx && samples_[cell_at(run.x1, run.y0)] == count);
+        visit(run, count);
+      }
+    });
+  }
 
  private:
   struct Free {
