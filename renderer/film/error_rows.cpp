@@ -103,6 +103,11 @@ ErrorRule::ErrorRule(uint32_t samples_of_pixel) : samples(samples_of_pixel), pai
     half_block[level] = 0.5f / static_cast<float>(pairs.length << level);
   }
   deviation2 = samples < 2 ? 0.0f : kIndependent / static_cast<float>(pairs.total());
+  // Two roots and a quotient, each rounded, are within nine parts in 2^53 of it.
+  const double exact_ratio = 1.0 / std::sqrt(double{deviation2});
+  const float below = static_cast<float>(exact_ratio * (1.0 - 1e-15)),
+              above = static_cast<float>(exact_ratio * (1.0 + 1e-15));
+  if (below == above) ratio = below;
 }
 
 void show_row(const float* mean, size_t channels, double exposure, ChannelRow& shown, std::array<uint8_t*, 3> bytes) {
@@ -143,9 +148,14 @@ void measure_row(const SamplePlanes& planes, const float* mean, size_t channels,
   }
   curve()(down.data(), count, low.data());
   curve()(up.data(), count, high.data());
+  std::array<float, ChannelRow().size()> ratio;  // of the deviation to the reach
+  std::fill_n(ratio.begin(), count, rule.ratio.value_or(0.0f));
   for (size_t k = 0; k < count; ++k) {
-    const float change = std::max(middle[k] - low[k], high[k] - middle[k]);
-    const float deviation = change * static_cast<float>(std::sqrt(double{variance[k]}) / reach[k]);
+    const bool is_known = rule.ratio && reach[k] > least && reach[k] < INFINITY;
+    if (!is_known) ratio[k] = static_cast<float>(std::sqrt(double{variance[k]}) / reach[k]);
+  }
+  for (size_t k = 0; k < count; ++k) {
+    const float deviation = ratio[k] * std::max(middle[k] - low[k], high[k] - middle[k]);
     out.variance[k] = deviation * deviation;
   }
   for (size_t level = 0; level < kErrorLevels; ++level) {
@@ -189,15 +199,17 @@ void add_contrasts(const std::array<const ShownRow*, 3>& rows, const float* coun
 void spread_row(const Neighbourhood& around, size_t pixels, float scale, float* variances) {
   std::array<float, kRunPx> contrast;
   add_contrasts(around.shown, around.count.data(), pixels, contrast.data());
-  const auto [above, here, below] = around.own;
+  const float *const above = around.own[0], *const here = around.own[1], *const below = around.own[2];
+  std::array<float, kRunPx> sums;
   for (size_t i = 0; i < pixels; ++i) {
-    float sum = 0.0f;
-    for (const float* row : {above, here, below}) sum += row[i - 1], sum += row[i], sum += row[i + 1];
+    sums[i] = above[i - 1] + above[i] + above[i + 1] + here[i - 1] + here[i] + here[i + 1] + below[i - 1] + below[i] +
+              below[i + 1];
+  }
+  for (size_t i = 0; i < pixels; ++i) {
     // The only pixel of an image has no neighbours, and no contrast.
-    const float neighbours_count = around.count[i] - 1.0f, own = here[i];
-    const float neighbours = neighbours_count > 0.0f ? (sum - own) / neighbours_count : own;
-    const float mean_contrast =
-        neighbours_count > 0.0f ? contrast[i] / (3.0f * 255.0f * 255.0f * neighbours_count) : 0.0f;
+    const float others = around.count[i] - 1.0f, own = here[i];
+    const float neighbours = others > 0.0f ? (sums[i] - own) / others : own;
+    const float mean_contrast = others > 0.0f ? contrast[i] / (3.0f * 255.0f * 255.0f * others) : 0.0f;
     const float seen = scale * (own + kNeighbours * (neighbours - own));
     variances[i] = seen + around.unseen[i] * mean_contrast;
   }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "renderer/film/film.h"
 
@@ -32,6 +33,8 @@ struct ErrorRule {
   BlockPairs pairs;
   std::array<float, kErrorLevels> weights, half_block;
   float deviation2;  // of the mean, if samples were independent: over what weights make of differences
+  // static_cast<float>(sqrt(v) / sqrt(deviation2 * v)), in double, for every v; if that is sure.
+  std::optional<float> ratio;
 };
 
 // The channels of a run's row of pixels.
