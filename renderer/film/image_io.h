@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, JPEG and OpenEXR by OpenImageIO, in memory, and the names of the formats of pictures. A target of its own
-// (tl_image_io): loading the library costs 0.3 s. Any thread.
+// PNG, JPEG and OpenEXR in memory (JPEG and OpenEXR, and what is read, by OpenImageIO), and the names of the formats of
+// pictures. A target of its own (tl_image_io): loading the library costs 0.3 s. Any thread.
 #pragma once
 
 #include <cstdint>

@@ -171,6 +171,7 @@ Violations broken_door_laws(const SourceFile& file) {
        "*_simd* and *-inl.h of shade, trace and raster"},
       {R"(nlohmann/.*)", R"(.*_json\.cpp)", "*_json.cpp"},
       {R"(OpenImageIO/.*)", R"(renderer/film/image_io\.cpp)", "renderer/film/image_io.cpp"},
+      {R"(libdeflate\.h)", R"(renderer/film/png\.cpp)", "renderer/film/png.cpp"},
       {R"((cpp-)?httplib(\.h|/.*))", R"(server/http/.*)", "server/http"},
       {R"(spdlog/.*)", R"(server/.*)", "the server"},
       {R"(sqlite3\.h)", R"(server/jobs/[^/]*store[^/]*\.cpp)", "one store in server/jobs"},
