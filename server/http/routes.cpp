@@ -98,6 +98,16 @@ Routed route_guarded(Services& services, const std::vector<Route>& routes, Reque
   }
 }
 
+// Beside the times that a render took, if they are told: all that this request took, until its answer was ready.
+void tell_total(Response& response, double ms) {
+  for (auto& [name, value] : response.headers) {
+    if (name != "Server-Timing") continue;
+    char text[32];
+    std::snprintf(text, sizeof text, ", total;dur=%.2f", ms);
+    value += text;
+  }
+}
+
 }  // namespace
 
 const std::vector<Route>& api_routes() { return kApiRoutes; }
@@ -111,6 +121,7 @@ Response dispatch(Services& services, const std::vector<Route>& routes, Request&
   Response response = routed.reply ? std::move(*routed.reply) : problem_response(routed.reply.error(), request.id);
   response.with("X-Content-Type-Options", "nosniff").with("Request-Id", request.id);
   const double ms = ms_since(start);
+  tell_total(response, ms);
   services.metrics.observe_request_ms(ms);
   services.metrics.add("tilelight_http_requests_total", "route=\"" + std::string(routed.pattern) + "\",status=\"" +
                                                             std::to_string(response.status) + "\"");
