@@ -13,7 +13,7 @@
 
 #include <span>
 
-#include "renderer/trace/packet_rays-inl.h"
+#include "renderer/trace/lone-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
@@ -123,6 +123,7 @@ class PacketWalk {
     input_ = rays;
     inside_[0].body = inside_[1].body = kNone;
     has_left_ = false;
+    lone_set_ = 0;
     const auto count = static_cast<int>(rays.size());
     alignas(64) double t_max[kPacketRays];
     alignas(64) float reach[kPacketRays];
@@ -145,7 +146,7 @@ class PacketWalk {
         reach[i] = static_cast<float>(reach_[i]);
       }
     }
-    make_packet(origin_, direction_, reach, rays_);
+    make_lanes(origin_, direction_, reach, rays_);
     const DoubleTag wide;
     const hn::Rebind<float, DoubleTag> narrow;
     for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(wide)) {
@@ -163,13 +164,36 @@ class PacketWalk {
       const auto high =
           hn::IfThenElse(hn::Lt(end, hn::Set(tag, -WideBvh::kNowhere)), end, hn::Add(end, filter_slack(end)));
       hn::Store(high, tag, lane_.high + i);
-      hn::Store(high, tag, lane_.low + i);
+      // What is met this near the end may lie before or behind it.
+      hn::Store(hn::Sub(end, filter_slack(end)), tag, lane_.low + i);
       hn::Store(hn::Set(tag, INFINITY), tag, lane_.doubt + i);
       hn::Store(hn::Set(int_tag, kNone), int_tag, lane_.body + i);
     }
   }
 
-  // Whether the rays go nearly the same way; else they are better walked one by one.
+  // Whether the filter's margins hold for these rays.
+  bool is_sound() const { return rays_.is_near; }
+
+  // The lanes that are still undecided, as bits. REQUIRES: is_sound().
+  uint32_t run() {
+    const uint32_t all = (1u << input_.size()) - 1;
+    for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
+    if (is_coherent() && bound_lanes(rays_)) {
+      walk();
+    } else {
+      if (!scene_.tree.nodes.empty()) walk_apart(all, 0);
+    }
+    return end_walk();
+  }
+  // Of a decided lane.
+  Hit hit(size_t lane) const {
+    if (lane_.body[lane] == kNone) return {input_[lane].t_max, kNone, 0, 0.0, 0.0};
+    return {t_[lane], lane_.body[lane], lane_.prim[lane], b0_[lane], b1_[lane]};
+  }
+  bool is_blocked(size_t lane) const { return lane_.body[lane] != kNone; }
+
+ private:
+  // Whether the rays go nearly the same way; else each is better walked alone.
   bool is_coherent() const {
     constexpr float kLeastCosine = 0.9f;
     const LaneTag tag;
@@ -181,14 +205,11 @@ class PacketWalk {
           hn::MulAdd(first(0), all(0, i), hn::MulAdd(first(1), all(1, i), hn::Mul(first(2), all(2, i))));
       is_near &= hn::AllTrue(tag, hn::Ge(cosine, hn::Set(tag, kLeastCosine)));
     }
-    return is_near && rays_.is_sound;
+    return is_near;
   }
 
-  // The lanes that are still undecided, as bits. REQUIRES: is_coherent().
-  uint32_t run() {
-    const uint32_t all = (1u << input_.size()) - 1;
-    for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
-    walk();
+  // After the walk: computes the hits, and tells which lanes are undecided.
+  uint32_t end_walk() {
     uint32_t undecided = 0, of_meshes = 0;
     for (size_t i = 0; i < input_.size(); ++i) {
       const bool is_undecided = lane_.doubt[i] < INFINITY && lane_.doubt[i] <= lane_.high[i];
@@ -205,15 +226,8 @@ class PacketWalk {
     return undecided;
   }
 
-  // Of a decided lane.
-  Hit hit(size_t lane) const {
-    if (lane_.body[lane] == kNone) return {input_[lane].t_max, kNone, 0, 0.0, 0.0};
-    return {t_[lane], lane_.body[lane], lane_.prim[lane], b0_[lane], b1_[lane]};
-  }
-  bool is_blocked(size_t lane) const { return lane_.body[lane] != kNone; }
-
- private:
   void walk() {
+    constexpr size_t kFewLanes = kAnyHit ? 4 : 2;  // walked apart
     struct Entry {
       uint32_t node, lanes;
       float t;
@@ -227,6 +241,11 @@ class PacketWalk {
     while (top > 0) {
       const Entry e = stack[--top];
       if (e.t > t_most) continue;
+      if (hwy::PopCount(e.lanes) <= kFewLanes) {
+        walk_apart(e.lanes, e.node);
+        t_most = greatest_of(lane_.high);
+        continue;
+      }
       if (e.node & WideBvh::kLeafBit) {
         const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
         if (leaf & TriangleTree::kBodyBit) {
@@ -252,6 +271,67 @@ class PacketWalk {
         for (; place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
         stack[place] = met;
       }
+    }
+  }
+
+  // Each lane by itself from a node on, a step of each in turn: while one waits for memory or for its branches, the
+  // others go on.
+  void walk_apart(uint32_t lanes, uint32_t root) {
+    const TriangleTree& tree = scene_.tree;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+      const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
+      if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, static_cast<size_t>(lane));
+      lone_[lane].push(root, lone_[lane].t_min);
+    }
+    lone_set_ |= lanes;
+    while (lanes != 0) {
+      for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
+        if (!step(tree, lone_[lane], static_cast<size_t>(lane))) lanes &= ~(1u << lane);
+      }
+    }
+  }
+  // Visits the lane's next node; false: there is none.
+  HWY_INLINE bool step(const TriangleTree& tree, LoneRay& ray, size_t lane) {
+    const float high = lane_.high[lane];
+    do {
+      if (ray.top == 0) return false;
+    } while (ray.t[--ray.top] > high);
+    const uint32_t next = ray.node[ray.top];
+    if (next & WideBvh::kLeafBit) {
+      const uint32_t leaf = next & ~WideBvh::kLeafBit;
+      if (leaf & TriangleTree::kBodyBit) {
+        visit_body(leaf & ~TriangleTree::kBodyBit, 1u << lane);
+      } else {
+        visit_block(tree.blocks[leaf], ray, lane);
+      }
+    } else {
+      push_children(tree.nodes[next], high, ray);
+    }
+    if (ray.top == 0) return false;
+    prefetch_any(tree, ray.node[ray.top - 1]);
+    return true;
+  }
+
+  HWY_INLINE void visit_block(const TriangleBlock& block, const LoneRay& ray, size_t lane) {
+    LoneSift sifted;
+    sift_block<kAnyHit>(block, ray, lane_.t_sure[lane], lane_.high[lane], sifted);
+    for (uint32_t met = sifted.surely; met != 0; met &= met - 1) {
+      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
+      if (has_left_ && block.prim[k] == lane_.left_prim[lane] && block.body[k] == lane_.left_body[lane]) continue;
+      if (kAnyHit) return block_lane(static_cast<int>(lane), block.body[k]);
+      if (sifted.high[k] < lane_.high[lane]) {
+        lane_.doubt[lane] = std::min(lane_.doubt[lane], lane_.low[lane]);
+        lane_.low[lane] = sifted.low[k], lane_.high[lane] = sifted.high[k];
+        lane_.body[lane] = block.body[k], lane_.prim[lane] = block.prim[k];
+      } else {
+        lane_.doubt[lane] = std::min(lane_.doubt[lane], sifted.low[k]);
+      }
+    }
+    for (uint32_t met = sifted.unsure; met != 0; met &= met - 1) {
+      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
+      if (has_left_ && block.prim[k] == lane_.left_prim[lane] && block.body[k] == lane_.left_body[lane]) continue;
+      decide(block.body[k], block.prim[k], 1u << lane);
     }
   }
 
@@ -303,7 +383,7 @@ class PacketWalk {
   void offer(int i, uint32_t body, uint32_t prim, double t, double b0, double b1) {
     const auto at = static_cast<float>(t - rays_.shift[i]);
     if (kAnyHit) {
-      if (t < input_[static_cast<size_t>(i)].t_max) block(i, body);
+      if (t < input_[static_cast<size_t>(i)].t_max) block_lane(i, body);
       return;
     }
     const float off = rays_.tie[i] + 0x1p-22f * (1.0f + std::abs(at));
@@ -316,7 +396,7 @@ class PacketWalk {
       lane_.doubt[i] = std::min(lane_.doubt[i], at - off);
     }
   }
-  void block(int lane, uint32_t body) {
+  void block_lane(int lane, uint32_t body) {
     lane_.body[lane] = body;
     lane_.high[lane] = -INFINITY;
   }
@@ -329,7 +409,7 @@ class PacketWalk {
       const Hit hit = Walk<kAnyHit>(scene_, input_[static_cast<size_t>(i)]).run_body(index);
       if (!hit.is_hit()) continue;
       if (kAnyHit) {
-        block(i, index);
+        block_lane(i, index);
       } else {
         offer(i, index, hit.prim, hit.t, hit.b0, hit.b1);
       }
@@ -407,7 +487,9 @@ class PacketWalk {
   alignas(64) double origin_[3][kPacketRays], direction_[3][kPacketRays], reach_[kPacketRays];
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
-  int latest_ = 0;  // which of these was asked for last
+  LoneRay lone_[kPacketRays];
+  uint32_t lone_set_ = 0;  // the lanes whose lone_ is set, as bits
+  int latest_ = 0;         // which of these was asked for last
 };
 
 // All rays, a packet of neighbours at a time: take(ray, packet, lane) for what a packet has decided, ask(ray) for the
@@ -422,7 +504,7 @@ HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const Bounde
     uint32_t undecided = ~0u;
     if (some.size() >= kFewRays) {
       packet.take(some);
-      if (packet.is_coherent()) {
+      if (packet.is_sound()) {
         undecided = packet.run();
         for (size_t i = 0; i < some.size(); ++i)
           if (!(undecided >> i & 1)) take(first + i, packet, i);

@@ -49,8 +49,8 @@ struct PacketRays {
   int near_side[3];  // where not mixed. 0: enters by the lower plane
   float t_least;
   int kx = 0, ky = 1, kz = 2;
-  float slack = 0.0f;    // points in the sheared plane are off by less
-  bool is_sound = true;  // every ray runs along axis kz by half its length, from an origin that is not too far away
+  float slack = 0.0f;   // points in the sheared plane are off by less
+  bool is_near = true;  // no origin is so far away that the boxes' width would not cover its rounding
 };
 
 // Of 1 / d, finite also for d = 0.
@@ -65,8 +65,9 @@ HWY_INLINE hn::Vec<LaneTag> filter_slack(hn::Vec<LaneTag> t) {
   return hn::Mul(hn::Set(tag, kFilterSlack), hn::Add(hn::Set(tag, 1.0f), hn::Abs(t)));
 }
 
-HWY_INLINE void make_packet(const double (&origin)[3][kPacketRays], const double (&direction)[3][kPacketRays],
-                            const float (&reach)[kPacketRays], PacketRays& out) {
+// What each lane needs by itself.
+HWY_INLINE void make_lanes(const double (&origin)[3][kPacketRays], const double (&direction)[3][kPacketRays],
+                           const float (&reach)[kPacketRays], PacketRays& out) {
   constexpr double kFarthest = 0x1p16;
   const DoubleTag wide;
   const hn::Rebind<float, DoubleTag> narrow;
@@ -88,6 +89,7 @@ HWY_INLINE void make_packet(const double (&origin)[3][kPacketRays], const double
     hn::Store(hn::DemoteTo(narrow, dz), narrow, out.direction[2] + i);
     hn::Store(hn::DemoteTo(narrow, shift), narrow, out.near_shift + i);
   }
+  out.is_near = hn::AllTrue(wide, hn::Lt(farthest, hn::Set(wide, kFarthest * kFarthest)));
   const LaneTag tag;
   for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
     for (int axis = 0; axis < 3; ++axis)
@@ -98,6 +100,11 @@ HWY_INLINE void make_packet(const double (&origin)[3][kPacketRays], const double
     const auto tie = hn::Mul(hn::Set(tag, 0x1p-24f), hn::Add(hn::Set(tag, 1.0f), hn::Abs(shift)));
     hn::Store(hn::Add(tie, hn::Set(tag, 0x1p-21f)), tag, out.tie + i);
   }
+}
+
+// What bounds all lanes. False: no axis along which every ray runs by half its length.
+HWY_INLINE bool bound_lanes(PacketRays& out) {
+  const LaneTag tag;
   float most = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float d_low = least_of(out.direction[axis]), d_high = greatest_of(out.direction[axis]);
@@ -110,16 +117,17 @@ HWY_INLINE void make_packet(const double (&origin)[3][kPacketRays], const double
     out.slope_low[axis] = 1.0f / out.direction_most[axis], out.slope_high[axis] = 1.0f / weakest;
     if (weakest > most) most = weakest, out.kz = axis;
   }
-  out.is_sound = most >= 0.5f && hn::GetLane(hn::MaxOfLanes(wide, farthest)) < kFarthest * kFarthest;
+  if (!(most >= 0.5f)) return false;
   out.kx = (out.kz + 1) % 3, out.ky = (out.kz + 2) % 3;
   for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
     const auto inverse = hn::Load(tag, out.inverse[out.kz] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.ky] + i), inverse), tag, out.slope[1] + i);
   }
-  const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / std::max(most, 0.5f);
+  const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / most;
   out.slack = kSheared * std::max(1.0f, slope);  // what is rounded before it is sheared grows with the slope
   out.t_least = least_of(out.t_min);
+  return true;
 }
 
 using BoxVec = hn::Vec<FloatTag>;

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// One lane of a packet by itself: a ray whose neighbours go elsewhere. It asks eight boxes or eight triangles at once,
+// by the same filter and with the same margins as a packet; its set-up and its final hit are the packet's, sixteen
+// lanes side by side. Included once for every instruction set.
+#if defined(TILELIGHT_LONE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TILELIGHT_LONE_INL_H
+#undef TILELIGHT_LONE_INL_H
+#else
+#define TILELIGHT_LONE_INL_H
+#endif
+
+#include "renderer/trace/packet_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tilelight {
+namespace HWY_NAMESPACE {
+
+// A lane's numbers, together, and what is left for it to visit.
+struct LoneRay {
+  float inverse[3], scaled[3];  // a plane p is met at p * inverse - scaled
+  int near_at[3], far_at[3];    // where a node's near and far planes lie, among its bounds
+  int kx, ky, kz;               // kz: of the longest component, so that no slope exceeds 1
+  float ox, oy, oz, sx, sy, sz;
+  float t_min, tie;
+  int top;  // of the stack
+  uint32_t node[kStackSize + 8];
+  float t[kStackSize + 8];  // where the ray enters these nodes; the nearest are at the top
+
+  void set(const PacketRays& rays, size_t lane) {
+    t_min = rays.t_min[lane], tie = rays.tie[lane];
+    const float d[3] = {rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
+    for (int axis = 0; axis < 3; ++axis) {
+      inverse[axis] = rays.inverse[axis][lane];
+      scaled[axis] = rays.origin[axis][lane] * inverse[axis];
+      constexpr int kWidth = WideBvh::kWidth;
+      const int lower = axis * kWidth, upper = (3 + axis) * kWidth;
+      near_at[axis] = inverse[axis] < 0.0f ? upper : lower, far_at[axis] = inverse[axis] < 0.0f ? lower : upper;
+    }
+    const float x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]);
+    kz = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
+    ox = rays.origin[kx][lane], oy = rays.origin[ky][lane], oz = rays.origin[kz][lane];
+    sz = inverse[kz], sx = d[kx] * sz, sy = d[ky] * sz;
+    top = 0;
+  }
+  void push(uint32_t what, float at) { node[top] = what, t[top++] = at; }
+};
+
+// What a lane visits next, a node or a block.
+HWY_INLINE void prefetch_any(const TriangleTree& tree, uint32_t reference) {
+  if (!(reference & WideBvh::kLeafBit)) return prefetch(tree, reference);
+  if (reference & TriangleTree::kBodyBit) return;
+  const auto* block = reinterpret_cast<const char*>(&tree.blocks[reference & ~WideBvh::kLeafBit]);
+  for (size_t line = 0; line < sizeof(TriangleBlock); line += 64) hwy::Prefetch(block + line);
+}
+
+#if HWY_MAX_BYTES >= 32
+// Eight numbers in descending order (a bitonic network).
+HWY_INLINE hn::Vec<hn::RebindToUnsigned<FloatTag>> sorted_down(hn::Vec<hn::RebindToUnsigned<FloatTag>> v) {
+  const hn::RebindToUnsigned<FloatTag> tag;
+  using V = decltype(v);
+  const auto order = [&](V there, uint32_t lesser) HWY_ATTR {
+    alignas(32) uint32_t bits[8];
+    for (uint32_t i = 0; i < 8; ++i) bits[i] = lesser >> i & 1 ? ~0u : 0;
+    const auto mask = hn::MaskFromVec(hn::Load(tag, bits));
+    v = hn::IfThenElse(mask, hn::Min(v, there), hn::Max(v, there));
+  };
+  order(hn::Shuffle2301(v), 0b10101010);
+  order(hn::Shuffle0123(v), 0b11001100);
+  order(hn::Shuffle2301(v), 0b10101010);
+  order(hn::Reverse(tag, v), 0b11110000);
+  order(hn::Shuffle1032(v), 0b11001100);
+  order(hn::Shuffle2301(v), 0b10101010);
+  return v;
+}
+#endif
+
+// Pushes those of a node's children whose boxes the ray may meet before t_max, the nearest last. That the origin is
+// scaled before it is subtracted is a rounding of the origin, which the boxes' width covers.
+HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& ray) {
+  const FloatTag tag;
+  constexpr size_t kLanes = hn::MaxLanes(tag);
+  const float* bounds = &node.bounds[0][0][0];
+  HWY_ALIGN float entry[WideBvh::kWidth];
+  uint32_t mask = 0;
+  for (size_t i = 0; i < WideBvh::kWidth; i += kLanes) {
+    const auto at = [&](int axis, int place) HWY_ATTR {
+      return hn::MulSub(hn::Load(tag, bounds + place + i), hn::Set(tag, ray.inverse[axis]),
+                        hn::Set(tag, ray.scaled[axis]));
+    };
+    const auto near = hn::Max(hn::Max(at(0, ray.near_at[0]), at(1, ray.near_at[1])),
+                              hn::Max(at(2, ray.near_at[2]), hn::Set(tag, ray.t_min)));
+    const auto far = hn::Min(hn::Min(at(0, ray.far_at[0]), at(1, ray.far_at[1])),
+                             hn::Min(at(2, ray.far_at[2]), hn::Set(tag, t_max)));
+    const auto is_met = hn::Le(near, far);
+#if HWY_MAX_BYTES >= 32
+    // No branches: how many boxes a ray meets is hard to predict. The order is that of the distances' bits, of which
+    // the last three make room for the place.
+    const hn::RebindToUnsigned<FloatTag> int_tag;
+    const auto distance = hn::BitCast(int_tag, hn::Sub(near, hn::Set(tag, ray.t_min)));
+    const auto key = hn::Or(hn::AndNot(hn::Set(int_tag, 7), distance), hn::Iota(int_tag, 0));
+    const auto sorted = sorted_down(hn::IfThenElseZero(hn::RebindMask(int_tag, is_met), key));
+    const auto order = hn::IndicesFromVec(int_tag, hn::And(sorted, hn::Set(int_tag, 7)));
+    hn::StoreU(hn::TableLookupLanes(hn::Load(int_tag, node.child), order), int_tag, ray.node + ray.top);
+    hn::StoreU(hn::TableLookupLanes(near, hn::IndicesFromVec(tag, hn::And(sorted, hn::Set(int_tag, 7)))), tag,
+               ray.t + ray.top);
+    ray.top += static_cast<int>(hn::CountTrue(tag, is_met));
+#else
+    hn::Store(near, tag, entry + i);
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, is_met, bits);
+    mask |= static_cast<uint32_t>(bits[0]) << i;
+#endif
+  }
+  for (const int first = ray.top; mask != 0; mask &= mask - 1) {
+    const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
+    int place = ray.top++;
+    for (; place > first && ray.t[place - 1] < entry[c]; --place)
+      ray.t[place] = ray.t[place - 1], ray.node[place] = ray.node[place - 1];
+    ray.t[place] = entry[c], ray.node[place] = node.child[c];
+  }
+}
+
+// What float can say of the triangles of a block, see SureTriangles.
+struct LoneSift {
+  uint32_t surely = 0, unsure = 0;
+  alignas(32) float low[8], high[8];  // of those that are surely met: t lies between
+};
+template <bool kAnyHit>
+HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float t_sure, float t_max, LoneSift& out) {
+  const FloatTag tag;
+  using V = BoxVec;
+  const V ox = hn::Set(tag, ray.ox), oy = hn::Set(tag, ray.oy), oz = hn::Set(tag, ray.oz);
+  const V sx = hn::Set(tag, ray.sx), sy = hn::Set(tag, ray.sy), sz = hn::Set(tag, ray.sz);
+  for (size_t i = 0; i < 8; i += hn::MaxLanes(tag)) {
+    V x[3], y[3], t[3], most = hn::Zero(tag);
+    for (int v = 0; v < 3; ++v) {
+      const V z = hn::Sub(hn::Load(tag, block.vertex[v][ray.kz] + i), oz);
+      x[v] = hn::NegMulAdd(sx, z, hn::Sub(hn::Load(tag, block.vertex[v][ray.kx] + i), ox));
+      y[v] = hn::NegMulAdd(sy, z, hn::Sub(hn::Load(tag, block.vertex[v][ray.ky] + i), oy));
+      t[v] = hn::Mul(sz, z);
+      most = hn::Max(most, hn::Add(hn::Abs(x[v]), hn::Abs(y[v])));
+    }
+    const V u = hn::MulSub(x[2], y[1], hn::Mul(y[2], x[1])), v = hn::MulSub(x[0], y[2], hn::Mul(y[0], x[2])),
+            w = hn::MulSub(x[1], y[0], hn::Mul(y[1], x[0]));
+    const V bound = hn::Mul(hn::Set(tag, 2.0f * kSheared), most);
+    const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
+    const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
+    const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
+    const V slack = hn::MulAdd(hn::Set(tag, kFilterSlack), hn::Add(size, hn::Set(tag, 1.0f)), hn::Set(tag, ray.tie));
+    const V high = hn::Set(tag, t_max), first = hn::Sub(nearest, slack);
+    auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
+    maybe = hn::And(maybe, hn::And(hn::Le(first, high), hn::Ge(farthest, hn::Set(tag, ray.t_min))));
+    if (hn::AllFalse(tag, maybe)) continue;
+
+    const V twice = hn::Add(bound, bound);
+    auto surely = hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice)));
+    surely = hn::And(hn::And(surely, maybe), hn::Gt(first, hn::Set(tag, t_sure)));
+    if (kAnyHit) surely = hn::And(surely, hn::Lt(hn::MulAdd(hn::Set(tag, 2.0f), slack, farthest), high));
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, surely, bits);
+    out.surely |= static_cast<uint32_t>(bits[0]) << i;
+    hn::StoreMaskBits(tag, hn::AndNot(surely, maybe), bits);
+    out.unsure |= static_cast<uint32_t>(bits[0]) << i;
+    if (kAnyHit) continue;
+    // Each weight is off by less than its bound, and their sum is at least six bounds.
+    const V inverse = hn::Div(hn::Set(tag, 1.0f), hn::Add(u, hn::Add(v, w)));
+    const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
+    const V off =
+        hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
+    hn::Store(hn::Sub(at, off), tag, out.low + i);
+    hn::Store(hn::Add(at, off), tag, out.high + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tilelight
+HWY_AFTER_NAMESPACE();
+
+#endif
