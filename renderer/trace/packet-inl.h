@@ -25,7 +25,6 @@ struct LaneHits {
   alignas(64) float doubt[kPacketRays];                       // no other hit, and no doubtful one, lies before
   alignas(64) float t_sure[kPacketRays];                      // from here on a hit lies ahead without any doubt
   alignas(64) uint32_t body[kPacketRays], prim[kPacketRays];  // the best hit; kNone: none
-  alignas(64) uint32_t left_body[kPacketRays], left_prim[kPacketRays];  // what the ray has left
 };
 
 // One triangle of a block against all lanes: hits beyond doubt go to low, high and prim; returned are the lanes, as
@@ -34,7 +33,7 @@ template <bool kAnyHit>
 struct SureTriangles {
   static constexpr bool kInDouble = true;  // what is found is computed in double at the end
 
-  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, bool has_left,
+  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays& given,
                                    LaneHits& lane) {
     const LaneTag tag;
     const LaneIntTag int_tag;
@@ -72,9 +71,9 @@ struct SureTriangles {
       auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
       maybe = hn::And(maybe,
                       hn::And(hn::Le(hn::Sub(nearest, slack), high), hn::Ge(farthest, hn::Load(tag, rays.t_min + i))));
-      if (has_left) {
-        const auto is_left = hn::And(hn::Eq(hn::Load(int_tag, lane.left_prim + i), prim),
-                                     hn::Eq(hn::Load(int_tag, lane.left_body + i), body));
+      if (given.has_left) {
+        const auto is_left = hn::And(hn::Eq(hn::Load(int_tag, given.left_prim + i), prim),
+                                     hn::Eq(hn::Load(int_tag, given.left_body + i), body));
         maybe = hn::AndNot(hn::RebindMask(tag, is_left), maybe);
       }
       if (hn::AllFalse(tag, maybe)) continue;
@@ -122,50 +121,13 @@ class PacketWalk {
   void take(std::span<const BoundedRay> rays) {
     input_ = rays;
     inside_[0].body = inside_[1].body = kNone;
-    has_left_ = false;
     lone_set_ = 0;
-    const auto count = static_cast<int>(rays.size());
-    alignas(64) double t_max[kPacketRays];
-    alignas(64) float reach[kPacketRays];
-    for (int i = 0; i < kPacketRays; ++i) {
-      const BoundedRay& ray = rays[static_cast<size_t>(i < count ? i : 0)];
-      for (int axis = 0; axis < 3; ++axis) {
-        origin_[axis][i] = ray.ray.origin[axis];
-        direction_[axis][i] = ray.ray.direction[axis];
-      }
-      lane_.left_body[i] = ray.ray.left.body, lane_.left_prim[i] = ray.ray.left.prim;
-      t_max[i] = i < count ? ray.t_max : kMissed;
-      has_left_ |= ray.ray.left.body != kNone;
-    }
-    std::fill_n(reach_, kPacketRays, 0.0);
-    std::fill_n(reach, kPacketRays, 0.0f);
-    if (has_left_) {
-      for (int i = 0; i < kPacketRays; ++i) {
-        const double size = std::abs(origin_[0][i]) + std::abs(origin_[1][i]) + std::abs(origin_[2][i]);
-        reach_[i] = lane_.left_body[i] == kNone ? 0.0 : reach_at(size);
-        reach[i] = static_cast<float>(reach_[i]);
-      }
-    }
-    make_lanes(origin_, direction_, reach, rays_);
-    const DoubleTag wide;
-    const hn::Rebind<float, DoubleTag> narrow;
-    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(wide)) {
-      const auto end = hn::Sub(hn::Load(wide, t_max + i), hn::Load(wide, rays_.shift + i));
-      hn::Store(hn::DemoteTo(narrow, hn::Min(end, hn::Set(wide, double{WideBvh::kNowhere}))), narrow, lane_.high + i);
-    }
+    read_rays(rays, given_);
+    // What is met near the ray's end may lie before or behind it: as if another hit were there.
+    make_lanes(given_, rays_, lane_.t_sure, lane_.low, lane_.high);
     const LaneTag tag;
     const LaneIntTag int_tag;
     for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
-      const auto sure =
-          hn::Sub(hn::Mul(hn::Set(tag, 2.0f), hn::Load(tag, reach + i)), hn::Load(tag, rays_.near_shift + i));
-      hn::Store(hn::Add(sure, filter_slack(sure)), tag, lane_.t_sure + i);
-      const auto end = hn::Load(tag, lane_.high + i);
-      // Infinite slack and minus infinity would make a NaN.
-      const auto high =
-          hn::IfThenElse(hn::Lt(end, hn::Set(tag, -WideBvh::kNowhere)), end, hn::Add(end, filter_slack(end)));
-      hn::Store(high, tag, lane_.high + i);
-      // What is met this near the end may lie before or behind it.
-      hn::Store(hn::Sub(end, filter_slack(end)), tag, lane_.low + i);
       hn::Store(hn::Set(tag, INFINITY), tag, lane_.doubt + i);
       hn::Store(hn::Set(int_tag, kNone), int_tag, lane_.body + i);
     }
@@ -318,7 +280,8 @@ class PacketWalk {
     sift_block<kAnyHit>(block, ray, lane_.t_sure[lane], lane_.high[lane], sifted);
     for (uint32_t met = sifted.surely; met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      if (has_left_ && block.prim[k] == lane_.left_prim[lane] && block.body[k] == lane_.left_body[lane]) continue;
+      if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
+        continue;
       if (kAnyHit) return block_lane(static_cast<int>(lane), block.body[k]);
       if (sifted.high[k] < lane_.high[lane]) {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], lane_.low[lane]);
@@ -330,7 +293,8 @@ class PacketWalk {
     }
     for (uint32_t met = sifted.unsure; met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      if (has_left_ && block.prim[k] == lane_.left_prim[lane] && block.body[k] == lane_.left_body[lane]) continue;
+      if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
+        continue;
       decide(block.body[k], block.prim[k], 1u << lane);
     }
   }
@@ -339,7 +303,8 @@ class PacketWalk {
   const MeshLanes& inside(uint32_t index) {
     if (inside_[latest_].body != index) {
       latest_ = 1 - latest_;
-      if (inside_[latest_].body != index) inside_[latest_].set(index, scene_.bodies[index], origin_, direction_);
+      if (inside_[latest_].body != index)
+        inside_[latest_].set(index, scene_.bodies[index], given_.origin, given_.direction);
     }
     return inside_[latest_];
   }
@@ -420,18 +385,18 @@ class PacketWalk {
     const CompiledBody& body = scene_.bodies[index];
     LocalLanes local;
     LaneSpans spans;
-    transform_lanes(body.local_from_world, origin_, direction_, local);
+    transform_lanes(body.local_from_world, given_.origin, given_.direction, local);
     if (body.kind == BodyKind::sphere) sphere_spans(local, spans);
     if (body.kind == BodyKind::plane) plane_spans(local, spans);
     if (body.kind == BodyKind::box) box_spans(body.half, local, spans);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
-      const double near = spans.near[i], far = spans.far[i], reach = reach_[i];
+      const double near = spans.near[i], far = spans.far[i], reach = given_.reach[i];
       double t = near;
       uint32_t prim = spans.near_prim[i];
       // Beyond `reach` the sign of t tells what lies ahead; within it, and on the body that the ray has left, the ray
       // does.
-      bool is_told = lane_.left_body[i] != index && (near > reach || near < -reach);
+      bool is_told = given_.left_body[i] != index && (near > reach || near < -reach);
       if (is_told && near < 0.0) {
         if (far < -reach) continue;
         t = far, prim = spans.far_prim[i];
@@ -454,7 +419,7 @@ class PacketWalk {
     const float t_most = greatest_of(lane_.high);
     for (uint32_t met = boxes_met(rays_, plane, t_most, entry); met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      const uint32_t unsure = Triangles::visit(block, k, rays_, has_left_, lane_);
+      const uint32_t unsure = Triangles::visit(block, k, rays_, given_, lane_);
       if (unsure != 0) decide(block.body[k], block.prim[k], unsure);
     }
   }
@@ -471,7 +436,7 @@ class PacketWalk {
     for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
       const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
       Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
-      if (!(in.alike >> i & 1) || !(hit.t > reach_[i])) {
+      if (!(in.alike >> i & 1) || !(hit.t > given_.reach[i])) {
         const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
         if (!walk.meet_triangle(walk.inside(body), prim, hit)) continue;
       }
@@ -483,8 +448,7 @@ class PacketWalk {
   std::span<const BoundedRay> input_;
   PacketRays rays_;
   LaneHits lane_;
-  bool has_left_ = false;
-  alignas(64) double origin_[3][kPacketRays], direction_[3][kPacketRays], reach_[kPacketRays];
+  GivenRays given_;
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
   LoneRay lone_[kPacketRays];

@@ -8,6 +8,9 @@
 #define TILELIGHT_PACKET_RAYS_INL_H
 #endif
 
+#include <cstddef>
+#include <span>
+
 #include "renderer/trace/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,14 +38,85 @@ HWY_INLINE float greatest_of(const float* lanes) {
   return hn::GetLane(hn::MaxOfLanes(LaneTag(), all));
 }
 
-// The rays in the world, as FilterRay has one; t counts from the moved origins. Lanes beyond the last ray repeat the
-// first.
+// The rays as they were given, by column. Lanes beyond the last ray repeat the first, and end before they start.
+struct GivenRays {
+  alignas(64) double origin[3][kPacketRays], direction[3][kPacketRays], t_max[kPacketRays];
+  alignas(64) double reach[kPacketRays];                                // as of Start
+  alignas(64) uint32_t left_body[kPacketRays], left_prim[kPacketRays];  // what the ray has left
+  bool has_left = false;
+};
+
+#if HWY_MAX_BYTES >= 64
+// Eight rays from rays[first] on, through registers: what is written a number at a time is read late.
+HWY_INLINE void read_eight(std::span<const BoundedRay> rays, size_t first, GivenRays& out) {
+  static_assert(sizeof(BoundedRay) == 72 && offsetof(BoundedRay, t_max) == 64 && offsetof(Ray, left) == 48);
+  const DoubleTag tag;
+  const hn::Half<DoubleTag> half;
+  const hn::Half<decltype(half)> quarter;
+  const auto row = [&](size_t i) HWY_ATTR { return reinterpret_cast<const double*>(&rays[first + i]); };
+  DoubleVec pair[2][4];  // even and odd columns of two rays side by side
+  hn::Vec<decltype(quarter)> end[4];
+  for (size_t k = 0; k < 4; ++k) {
+    const DoubleVec a = hn::LoadU(tag, row(2 * k)), b = hn::LoadU(tag, row(2 * k + 1));
+    pair[0][k] = hn::InterleaveLower(tag, a, b), pair[1][k] = hn::InterleaveUpper(tag, a, b);
+    end[k] = hn::InterleaveUpper(quarter, hn::LoadU(quarter, row(2 * k) + 7), hn::LoadU(quarter, row(2 * k + 1) + 7));
+  }
+  DoubleVec column[8];
+  for (size_t odd = 0; odd < 2; ++odd) {
+    const auto& p = pair[odd];
+    const auto even_of = [](DoubleVec a, DoubleVec b)
+                             HWY_ATTR { return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a); };
+    const auto odd_of = [](DoubleVec a, DoubleVec b)
+                            HWY_ATTR { return hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a)); };
+    const DoubleVec a = even_of(p[0], p[1]), b = odd_of(p[0], p[1]), c = even_of(p[2], p[3]), d = odd_of(p[2], p[3]);
+    column[odd] = hn::ConcatLowerLower(tag, c, a), column[2 + odd] = hn::ConcatLowerLower(tag, d, b);
+    column[4 + odd] = hn::ConcatUpperUpper(tag, c, a), column[6 + odd] = hn::ConcatUpperUpper(tag, d, b);
+  }
+  for (size_t axis = 0; axis < 3; ++axis) {
+    hn::Store(column[axis], tag, out.origin[axis] + first);
+    hn::Store(column[3 + axis], tag, out.direction[axis] + first);
+  }
+  hn::Store(hn::Combine(tag, hn::Combine(half, end[3], end[2]), hn::Combine(half, end[1], end[0])), tag,
+            out.t_max + first);
+  const hn::RebindToUnsigned<DoubleTag> bits_tag;
+  const hn::Rebind<uint32_t, DoubleTag> int_tag;
+  const auto left = hn::BitCast(bits_tag, column[6]);
+  const auto body = hn::TruncateTo(int_tag, left);
+  hn::Store(body, int_tag, out.left_body + first);
+  hn::Store(hn::TruncateTo(int_tag, hn::ShiftRight<32>(left)), int_tag, out.left_prim + first);
+  out.has_left |= !hn::AllTrue(int_tag, hn::Eq(body, hn::Set(int_tag, kNone)));
+}
+#endif
+
+HWY_INLINE void read_rays(std::span<const BoundedRay> rays, GivenRays& out) {
+  out.has_left = false;
+  size_t first = 0;
+#if HWY_MAX_BYTES >= 64
+  for (; first + 8 <= rays.size(); first += 8) read_eight(rays, first, out);
+#endif
+  for (size_t i = first; i < kPacketRays; ++i) {
+    const BoundedRay& ray = rays[i < rays.size() ? i : 0];
+    for (int axis = 0; axis < 3; ++axis) {
+      out.origin[axis][i] = ray.ray.origin[axis];
+      out.direction[axis][i] = ray.ray.direction[axis];
+    }
+    out.left_body[i] = ray.ray.left.body, out.left_prim[i] = ray.ray.left.prim;
+    out.t_max[i] = i < rays.size() ? ray.t_max : kMissed;
+    out.has_left |= ray.ray.left.body != kNone;
+  }
+  for (size_t i = 0; i < kPacketRays; ++i) {
+    const double size = std::abs(out.origin[0][i]) + std::abs(out.origin[1][i]) + std::abs(out.origin[2][i]);
+    const double reach = reach_at(size);
+    out.reach[i] = out.left_body[i] == kNone ? 0.0 : reach;
+  }
+}
+
+// The rays in the world, as FilterRay has one; t counts from the moved origins.
 struct PacketRays {
   alignas(64) float origin[3][kPacketRays], direction[3][kPacketRays], inverse[3][kPacketRays];
   alignas(64) float t_min[kPacketRays], tie[kPacketRays];  // tie: how far apart hits are that may be in one place
   alignas(64) float slope[2][kPacketRays];                 // of the sheared planes, along kx and ky
   alignas(64) double shift[kPacketRays];
-  alignas(64) float near_shift[kPacketRays];  // the same, rounded
   // Over all lanes, by axis. is_mixed: some directions go up and some down.
   float origin_low[3], origin_high[3], slope_low[3], slope_high[3], direction_most[3];  // slope: 1 / |direction|
   bool is_mixed[3];
@@ -65,41 +139,63 @@ HWY_INLINE hn::Vec<LaneTag> filter_slack(hn::Vec<LaneTag> t) {
   return hn::Mul(hn::Set(tag, kFilterSlack), hn::Add(hn::Set(tag, 1.0f), hn::Abs(t)));
 }
 
-// What each lane needs by itself.
-HWY_INLINE void make_lanes(const double (&origin)[3][kPacketRays], const double (&direction)[3][kPacketRays],
-                           const float (&reach)[kPacketRays], PacketRays& out) {
+// Numbers of a register of lanes, given as double.
+inline constexpr size_t kHalves = hn::MaxLanes(LaneTag()) / hn::MaxLanes(DoubleTag());
+HWY_INLINE hn::Vec<LaneTag> narrowed(const DoubleVec (&wide)[kHalves]) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::DemoteTo(LaneTag(), wide[0]);
+#else
+  const hn::Rebind<float, DoubleTag> narrow;
+  return hn::Combine(LaneTag(), hn::DemoteTo(narrow, wide[1]), hn::DemoteTo(narrow, wide[0]));
+#endif
+}
+
+// What each lane needs by itself. t_sure: from here on a hit lies ahead without any doubt; the ray's end lies between
+// low and high.
+HWY_INLINE void make_lanes(const GivenRays& given, PacketRays& out, float* t_sure, float* low, float* high) {
   constexpr double kFarthest = 0x1p16;
   const DoubleTag wide;
-  const hn::Rebind<float, DoubleTag> narrow;
+  const LaneTag tag;
+  using V = hn::Vec<LaneTag>;
   auto farthest = hn::Zero(wide);
-  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(wide)) {
-    const auto x = hn::Load(wide, origin[0] + i), y = hn::Load(wide, origin[1] + i), z = hn::Load(wide, origin[2] + i);
-    const auto dx = hn::Load(wide, direction[0] + i), dy = hn::Load(wide, direction[1] + i),
-               dz = hn::Load(wide, direction[2] + i);
-    const auto along = hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
-    const auto square = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-    const auto shift = hn::IfThenElseZero(hn::Gt(square, hn::Set(wide, kNearOrigin2)), hn::Neg(along));
-    farthest = hn::Max(farthest, square);
-    hn::Store(shift, wide, out.shift + i);
-    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dx, x)), narrow, out.origin[0] + i);
-    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dy, y)), narrow, out.origin[1] + i);
-    hn::Store(hn::DemoteTo(narrow, hn::MulAdd(shift, dz, z)), narrow, out.origin[2] + i);
-    hn::Store(hn::DemoteTo(narrow, dx), narrow, out.direction[0] + i);
-    hn::Store(hn::DemoteTo(narrow, dy), narrow, out.direction[1] + i);
-    hn::Store(hn::DemoteTo(narrow, dz), narrow, out.direction[2] + i);
-    hn::Store(hn::DemoteTo(narrow, shift), narrow, out.near_shift + i);
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    DoubleVec origin[3][kHalves], direction[3][kHalves], shifts[kHalves], ends[kHalves], reaches[kHalves];
+    for (size_t h = 0; h < kHalves; ++h) {
+      const size_t k = i + h * hn::MaxLanes(wide);
+      const auto x = hn::Load(wide, given.origin[0] + k), y = hn::Load(wide, given.origin[1] + k),
+                 z = hn::Load(wide, given.origin[2] + k);
+      const auto dx = hn::Load(wide, given.direction[0] + k), dy = hn::Load(wide, given.direction[1] + k),
+                 dz = hn::Load(wide, given.direction[2] + k);
+      const auto along = hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
+      const auto square = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+      const auto shift = hn::IfThenElseZero(hn::Gt(square, hn::Set(wide, kNearOrigin2)), hn::Neg(along));
+      farthest = hn::Max(farthest, square);
+      hn::Store(shift, wide, out.shift + k);
+      origin[0][h] = hn::MulAdd(shift, dx, x), direction[0][h] = dx;
+      origin[1][h] = hn::MulAdd(shift, dy, y), direction[1][h] = dy;
+      origin[2][h] = hn::MulAdd(shift, dz, z), direction[2][h] = dz;
+      shifts[h] = shift, reaches[h] = hn::Load(wide, given.reach + k);
+      ends[h] = hn::Min(hn::Sub(hn::Load(wide, given.t_max + k), shift), hn::Set(wide, double{WideBvh::kNowhere}));
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const V d = narrowed(direction[axis]);
+      hn::Store(narrowed(origin[axis]), tag, out.origin[axis] + i);
+      hn::Store(d, tag, out.direction[axis] + i);
+      hn::Store(inverse_of(d), tag, out.inverse[axis] + i);
+    }
+    const V shift = narrowed(shifts), reach = narrowed(reaches), end = narrowed(ends);
+    const V start = hn::Neg(hn::Add(reach, shift));
+    hn::Store(hn::Sub(start, filter_slack(start)), tag, out.t_min + i);
+    const V tie = hn::Mul(hn::Set(tag, 0x1p-24f), hn::Add(hn::Set(tag, 1.0f), hn::Abs(shift)));
+    hn::Store(hn::Add(tie, hn::Set(tag, 0x1p-21f)), tag, out.tie + i);
+    const V sure = hn::Sub(hn::Add(reach, reach), shift);
+    hn::Store(hn::Add(sure, filter_slack(sure)), tag, t_sure + i);
+    // Infinite slack and minus infinity would make a NaN.
+    const auto is_idle = hn::Lt(end, hn::Set(tag, -WideBvh::kNowhere));
+    hn::Store(hn::IfThenElse(is_idle, end, hn::Add(end, filter_slack(end))), tag, high + i);
+    hn::Store(hn::Sub(end, filter_slack(end)), tag, low + i);
   }
   out.is_near = hn::AllTrue(wide, hn::Lt(farthest, hn::Set(wide, kFarthest * kFarthest)));
-  const LaneTag tag;
-  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
-    for (int axis = 0; axis < 3; ++axis)
-      hn::Store(inverse_of(hn::Load(tag, out.direction[axis] + i)), tag, out.inverse[axis] + i);
-    const auto shift = hn::Load(tag, out.near_shift + i);
-    const auto start = hn::Neg(hn::Add(hn::Load(tag, reach + i), shift));
-    hn::Store(hn::Sub(start, filter_slack(start)), tag, out.t_min + i);
-    const auto tie = hn::Mul(hn::Set(tag, 0x1p-24f), hn::Add(hn::Set(tag, 1.0f), hn::Abs(shift)));
-    hn::Store(hn::Add(tie, hn::Set(tag, 0x1p-21f)), tag, out.tie + i);
-  }
 }
 
 // What bounds all lanes. False: no axis along which every ray runs by half its length.

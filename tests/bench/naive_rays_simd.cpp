@@ -18,7 +18,7 @@ template <bool kAnyHit>
 struct NaiveTriangles {
   static constexpr bool kInDouble = false;
 
-  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, bool, LaneHits& lane) {
+  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays&, LaneHits& lane) {
     constexpr float kEpsilon = 1e-4f;
     const LaneTag tag;
     const LaneIntTag int_tag;
