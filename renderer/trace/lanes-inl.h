@@ -79,6 +79,8 @@ struct MeshLanes {
   LocalLanes local;
   alignas(64) double sx[kPacketRays], sy[kPacketRays], sz[kPacketRays];
 
+  int axis(int k) const { return k == 0 ? kx : k == 1 ? ky : kz; }
+
   void set(uint32_t index, const CompiledBody& of, const double (&origin)[3][kPacketRays],
            const double (&direction)[3][kPacketRays]) {
     body = index;
@@ -104,7 +106,8 @@ struct MeshLanes {
     }
   }
 
-  // vertex(v, axis, i): of the triangles of the lanes from i on. Returns the lanes that meet theirs, as bits.
+  // vertex(v, k, i): of the triangles of the lanes from i on, along kx, ky and kz. Returns the lanes that meet theirs,
+  // as bits.
   template <class Vertex>
   HWY_INLINE uint32_t meet(const Vertex& vertex, ExactHits& out) const {
     const DoubleTag tag;
@@ -116,9 +119,9 @@ struct MeshLanes {
       const V slope_x = hn::Load(tag, sx + i), slope_y = hn::Load(tag, sy + i);
       V x[3], y[3], z[3];
       for (int v = 0; v < 3; ++v) {
-        z[v] = hn::Sub(vertex(v, kz, i), oz);
-        x[v] = hn::Sub(hn::Sub(vertex(v, kx, i), ox), hn::Mul(slope_x, z[v]));
-        y[v] = hn::Sub(hn::Sub(vertex(v, ky, i), oy), hn::Mul(slope_y, z[v]));
+        z[v] = hn::Sub(vertex(v, 2, i), oz);
+        x[v] = hn::Sub(hn::Sub(vertex(v, 0, i), ox), hn::Mul(slope_x, z[v]));
+        y[v] = hn::Sub(hn::Sub(vertex(v, 1, i), oy), hn::Mul(slope_y, z[v]));
       }
       const V u = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])),
               v = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),

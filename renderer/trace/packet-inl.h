@@ -140,48 +140,61 @@ class PacketWalk {
   uint32_t run() {
     const uint32_t all = (1u << input_.size()) - 1;
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
-    if (is_coherent() && bound_lanes(rays_)) {
+    if (bound_lanes(rays_)) {
       walk();
     } else {
       if (!scene_.tree.nodes.empty()) walk_apart(all, 0);
     }
     return end_walk();
   }
-  // Of a decided lane.
-  Hit hit(size_t lane) const {
-    if (lane_.body[lane] == kNone) return {input_[lane].t_max, kNone, 0, 0.0, 0.0};
-    return {t_[lane], lane_.body[lane], lane_.prim[lane], b0_[lane], b1_[lane]};
+  // The answers of all lanes, of which the undecided are still to be asked for.
+  HWY_INLINE void answer(std::span<Hit> hits) const {
+    static_assert(sizeof(Hit) == 32 && offsetof(Hit, body) == 8 && offsetof(Hit, prim) == 12 &&
+                  offsetof(Hit, b0) == 16);
+    if (hits.size() == kPacketRays) {
+      const DoubleTag tag;
+      const hn::RebindToUnsigned<DoubleTag> bits_tag;
+      const hn::Rebind<uint32_t, DoubleTag> int_tag;
+      for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+        const auto body = hn::PromoteTo(bits_tag, hn::Load(int_tag, lane_.body + i)),
+                   prim = hn::PromoteTo(bits_tag, hn::Load(int_tag, lane_.prim + i));
+        const auto is_hit = hn::RebindMask(tag, hn::Ne(body, hn::Set(bits_tag, kNone)));
+        const auto number = [&](const double* of)
+                                HWY_ATTR { return hn::IfThenElseZero(is_hit, hn::Load(tag, of + i)); };
+        const auto ids =
+            hn::Or(hn::BitCast(tag, body), hn::IfThenElseZero(is_hit, hn::BitCast(tag, hn::ShiftLeft<32>(prim))));
+        hn::StoreInterleaved4(hn::IfThenElse(is_hit, hn::Load(tag, t_ + i), hn::Load(tag, given_.t_max + i)), ids,
+                              number(b0_), number(b1_), tag, reinterpret_cast<double*>(&hits[i]));
+      }
+      return;
+    }
+    for (size_t i = 0; i < hits.size(); ++i) {
+      if (lane_.body[i] == kNone) {
+        hits[i] = {given_.t_max[i], kNone, 0, 0.0, 0.0};
+      } else {
+        hits[i] = {t_[i], lane_.body[i], lane_.prim[i], b0_[i], b1_[i]};
+      }
+    }
   }
-  bool is_blocked(size_t lane) const { return lane_.body[lane] != kNone; }
+  HWY_INLINE void answer(std::span<uint8_t> is_blocked) const {
+    const uint32_t open = lanes_equal(lane_.body, kNone);
+    for (size_t i = 0; i < is_blocked.size(); ++i) is_blocked[i] = !(open >> i & 1);
+  }
 
  private:
-  // Whether the rays go nearly the same way; else each is better walked alone.
-  bool is_coherent() const {
-    constexpr float kLeastCosine = 0.9f;
-    const LaneTag tag;
-    const auto first = [&](int axis) HWY_ATTR { return hn::Set(tag, rays_.direction[axis][0]); };
-    const auto all = [&](int axis, size_t i) HWY_ATTR { return hn::Load(tag, rays_.direction[axis] + i); };
-    bool is_near = true;
-    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
-      const auto cosine =
-          hn::MulAdd(first(0), all(0, i), hn::MulAdd(first(1), all(1, i), hn::Mul(first(2), all(2, i))));
-      is_near &= hn::AllTrue(tag, hn::Ge(cosine, hn::Set(tag, kLeastCosine)));
-    }
-    return is_near;
-  }
-
   // After the walk: computes the hits, and tells which lanes are undecided.
   uint32_t end_walk() {
-    uint32_t undecided = 0, of_meshes = 0;
-    for (size_t i = 0; i < input_.size(); ++i) {
-      const bool is_undecided = lane_.doubt[i] < INFINITY && lane_.doubt[i] <= lane_.high[i];
-      undecided |= static_cast<uint32_t>(is_undecided) << i;
-      if (kAnyHit || is_undecided || lane_.body[i] == kNone) continue;
-      of_meshes |= static_cast<uint32_t>(scene_.bodies[lane_.body[i]].kind == BodyKind::mesh) << i;
+    const LaneTag tag;
+    uint32_t undecided = 0;
+    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+      const auto doubt = hn::Load(tag, lane_.doubt + i);
+      undecided |=
+          lane_bits(hn::And(hn::Lt(doubt, hn::Set(tag, INFINITY)), hn::Le(doubt, hn::Load(tag, lane_.high + i)))) << i;
     }
     if (kAnyHit) return undecided;
     if (Triangles::kInDouble) {
-      finish(of_meshes);
+      const uint32_t all = (1u << input_.size()) - 1;
+      finish(all & ~(undecided | lanes_equal(lane_.body, kNone)));
     } else {
       for (int i = 0; i < kPacketRays; ++i) t_[i] = rays_.shift[i] + lane_.high[i];
     }
@@ -309,38 +322,58 @@ class PacketWalk {
     return inside_[latest_];
   }
 
-  // The hits with the triangles that were found.
+  // The hits of these lanes: with the triangles that were found; those with other bodies are known.
   void finish(uint32_t lanes) {
     while (lanes != 0) {
       const uint32_t index = lane_.body[hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes)];
-      const CompiledMesh& mesh = *scene_.bodies[index].mesh;
-      const MeshLanes& in = inside(index);
-      alignas(64) double vertex[3][3][kPacketRays];
-      uint32_t same = 0;
-      for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
-        if (lane_.body[i] != index) continue;
-        same |= 1u << i;
-        const auto& triangle = mesh.triangles[lane_.prim[i]];
-        for (size_t v = 0; v < 3; ++v) {
-          const Vec3& p = mesh.positions[triangle[v]];
-          for (int axis = 0; axis < 3; ++axis) vertex[v][axis][i] = p[axis];
-        }
-      }
-      ExactHits hits;
-      in.meet([&](int v, int axis, size_t i) HWY_ATTR { return hn::Load(DoubleTag(), vertex[v][axis] + i); }, hits);
+      const uint32_t same = lanes & lanes_equal(lane_.body, index);
       lanes &= ~same;
-      for (; same != 0; same &= same - 1) {
-        const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(same);
-        if (!(in.alike >> i & 1)) {
-          const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
-          Hit hit;
-          (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
-          t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
-        } else {
-          t_[i] = hits.t[i], b0_[i] = hits.b0[i], b1_[i] = hits.b1[i];
+      if (scene_.bodies[index].kind == BodyKind::mesh) finish_with(index, same);
+    }
+  }
+  void finish_with(uint32_t index, uint32_t lanes) {
+    const DoubleTag tag;
+    constexpr size_t kStep = hn::MaxLanes(tag), kParts = kPacketRays / kStep;
+    const CompiledMesh& mesh = *scene_.bodies[index].mesh;
+    const MeshLanes& in = inside(index);
+    const auto part_of = [&](uint32_t bits, size_t part) HWY_ATTR {
+      const uint8_t byte[8] = {static_cast<uint8_t>(bits >> part * kStep)};
+      return hn::LoadMaskBits(tag, byte);
+    };
+    DoubleVec vertex[3][3][kParts];
+    for (auto& v : vertex)
+      for (auto& k : v)
+        for (auto& part : k) part = hn::Zero(tag);
+    for (uint32_t rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
+      const uint32_t prim = lane_.prim[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+      const uint32_t alike = rest & lanes_equal(lane_.prim, prim);
+      rest &= ~alike;
+      const auto& triangle = mesh.triangles[prim];
+      for (size_t v = 0; v < 3; ++v) {
+        const Vec3& p = mesh.positions[triangle[v]];
+        for (size_t part = 0; part < kParts; ++part) {
+          const auto mask = part_of(alike, part);
+          for (int k = 0; k < 3; ++k)
+            vertex[v][k][part] = hn::IfThenElse(mask, hn::Set(tag, p[in.axis(k)]), vertex[v][k][part]);
         }
       }
+    }
+    ExactHits hits;
+    in.meet([&](int v, int k, size_t i) HWY_ATTR { return vertex[v][k][i / kStep]; }, hits);
+    for (size_t part = 0; part < kParts; ++part) {
+      const size_t i = part * kStep;
+      const auto mask = part_of(lanes & in.alike, part);
+      const auto keep = [&](const double* from, double* to) HWY_ATTR {
+        hn::Store(hn::IfThenElse(mask, hn::Load(tag, from + i), hn::Load(tag, to + i)), tag, to + i);
+      };
+      keep(hits.t, t_), keep(hits.b0, b0_), keep(hits.b1, b1_);
+    }
+    for (lanes &= ~in.alike; lanes != 0; lanes &= lanes - 1) {
+      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
+      Hit hit;
+      (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
+      t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
     }
   }
 
@@ -432,7 +465,7 @@ class PacketWalk {
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
     ExactHits hits;
     const uint32_t met =
-        in.meet([&](int v, int axis, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][axis]); }, hits);
+        in.meet([&](int v, int k, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][in.axis(k)]); }, hits);
     for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
       const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
       Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
@@ -456,26 +489,34 @@ class PacketWalk {
   int latest_ = 0;         // which of these was asked for last
 };
 
-// All rays, a packet of neighbours at a time: take(ray, packet, lane) for what a packet has decided, ask(ray) for the
-// rest. Packet: a PacketWalk.
-template <class Packet, class Take, class Ask>
-HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const BoundedRay> rays, const Take& take,
+// What lies ahead in a list of rays, which the processor does not foresee in time.
+HWY_INLINE void prefetch_rays(std::span<const BoundedRay> rays) {
+  const auto* bytes = reinterpret_cast<const char*>(rays.data());
+  for (size_t at = 0; at < rays.size_bytes(); at += 64) hwy::Prefetch(bytes + at);
+}
+
+// All rays, a packet of neighbours at a time. Answer: Hit, or uint8_t for whether a ray is blocked. ask(ray): for what
+// packets do not decide. Packet: a PacketWalk.
+template <class Packet, class Answer, class Ask>
+HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Answer> answers,
                               const Ask& ask) {
   constexpr size_t kFewRays = 5;  // fewer are better walked one by one
   Packet packet(scene);
   for (size_t first = 0; first < rays.size(); first += kPacketRays) {
-    const auto some = rays.subspan(first, std::min<size_t>(kPacketRays, rays.size() - first));
+    const auto rest = rays.subspan(first);
+    const auto some = rest.first(std::min<size_t>(kPacketRays, rest.size()));
+    const auto after = rest.subspan(some.size());
+    prefetch_rays(after.first(std::min<size_t>(kPacketRays, after.size())));
     uint32_t undecided = ~0u;
     if (some.size() >= kFewRays) {
       packet.take(some);
       if (packet.is_sound()) {
         undecided = packet.run();
-        for (size_t i = 0; i < some.size(); ++i)
-          if (!(undecided >> i & 1)) take(first + i, packet, i);
+        packet.answer(answers.subspan(first, some.size()));
       }
     }
-    for (size_t i = 0; i < some.size(); ++i)
-      if (undecided >> i & 1) ask(first + i);
+    for (undecided &= (1u << some.size()) - 1; undecided != 0; undecided &= undecided - 1)
+      ask(first + hwy::Num0BitsBelowLS1Bit_Nonzero32(undecided));
   }
 }
 

@@ -29,10 +29,6 @@ HWY_INLINE hn::Vec<LaneTag> merged_lanes(const float* lanes, const Merge& merge)
     all = merge(all, hn::Load(tag, lanes + i));
   return all;
 }
-HWY_INLINE float least_of(const float* lanes) {
-  const auto all = merged_lanes(lanes, [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); });
-  return hn::GetLane(hn::MinOfLanes(LaneTag(), all));
-}
 HWY_INLINE float greatest_of(const float* lanes) {
   const auto all = merged_lanes(lanes, [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); });
   return hn::GetLane(hn::MaxOfLanes(LaneTag(), all));
@@ -118,7 +114,8 @@ struct PacketRays {
   alignas(64) float slope[2][kPacketRays];                 // of the sheared planes, along kx and ky
   alignas(64) double shift[kPacketRays];
   // Over all lanes, by axis. is_mixed: some directions go up and some down.
-  float origin_low[3], origin_high[3], slope_low[3], slope_high[3], direction_most[3];  // slope: 1 / |direction|
+  // slope: 1 / |direction|. The fourth numbers fill the registers.
+  alignas(16) float origin_low[4], origin_high[4], slope_low[4], slope_high[4], direction_most[4];
   bool is_mixed[3];
   int near_side[3];  // where not mixed. 0: enters by the lower plane
   float t_least;
@@ -198,23 +195,89 @@ HWY_INLINE void make_lanes(const GivenRays& given, PacketRays& out, float* t_sur
   out.is_near = hn::AllTrue(wide, hn::Lt(farthest, hn::Set(wide, kFarthest * kFarthest)));
 }
 
-// What bounds all lanes. False: no axis along which every ray runs by half its length.
+template <class Mask>
+HWY_INLINE uint32_t lane_bits(Mask mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(LaneTag(), mask, bits);
+  return bits[0] | static_cast<uint32_t>(bits[1]) << 8;
+}
+// The lanes of a row that are `what`, as bits.
+HWY_INLINE uint32_t lanes_equal(const uint32_t* row, uint32_t what) {
+  const LaneTag tag;
+  const LaneIntTag int_tag;
+  uint32_t lanes = 0;
+  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    const auto is_equal = hn::Eq(hn::Load(int_tag, row + i), hn::Set(int_tag, what));
+    lanes |= lane_bits(hn::RebindMask(tag, is_equal)) << i;
+  }
+  return lanes;
+}
+
+using FourTag = hn::CappedTag<float, 4>;
+// Of each of four rows of lanes, through `merge`, into out[0..3]: four at once take half the steps of one by one.
+template <class Merge>
+HWY_INLINE void merge_four(const float* a, const float* b, const float* c, const float* d, const Merge& merge,
+                           float* out) {
+#if HWY_TARGET == HWY_SCALAR
+  const float* rows[4] = {a, b, c, d};
+  for (size_t k = 0; k < 4; ++k) hn::Store(merged_lanes(rows[k], merge), FourTag(), out + k);
+#else
+  const LaneTag tag;
+  const hn::RepartitionToWide<LaneIntTag> pairs;
+  const auto two = [&](const float* p, const float* q) HWY_ATTR {
+    const auto v = merged_lanes(p, merge), w = merged_lanes(q, merge);
+    return hn::BitCast(pairs, merge(hn::InterleaveLower(tag, v, w), hn::InterleaveUpper(tag, v, w)));
+  };
+  const auto v = two(a, b), w = two(c, d);
+  const auto four = merge(hn::BitCast(tag, hn::InterleaveLower(pairs, v, w)),
+                          hn::BitCast(tag, hn::InterleaveUpper(pairs, v, w)));  // in every block of 128 bits
+  if constexpr (hn::MaxLanes(tag) == 16) {
+    const hn::Half<LaneTag> half;
+    const auto eight = merge(hn::LowerHalf(half, four), hn::UpperHalf(half, four));
+    hn::Store(merge(hn::LowerHalf(FourTag(), eight), hn::UpperHalf(FourTag(), eight)), FourTag(), out);
+  } else if constexpr (hn::MaxLanes(tag) == 8) {
+    hn::Store(merge(hn::LowerHalf(FourTag(), four), hn::UpperHalf(FourTag(), four)), FourTag(), out);
+  } else {
+    hn::Store(four, tag, out);
+  }
+#endif
+}
+
+// What bounds all lanes. False: the rays go too many ways to be walked together.
 HWY_INLINE bool bound_lanes(PacketRays& out) {
   const LaneTag tag;
-  float most = 0.0f;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float d_low = least_of(out.direction[axis]), d_high = greatest_of(out.direction[axis]);
-    out.origin_low[axis] = least_of(out.origin[axis]), out.origin_high[axis] = greatest_of(out.origin[axis]);
-    out.is_mixed[axis] = !(d_low > kTinySlope || d_high < -kTinySlope);
-    out.near_side[axis] = d_high < 0.0f;
-    const float weakest = out.is_mixed[axis] ? 0.0f : std::min(std::abs(d_low), std::abs(d_high));
-    out.direction_most[axis] = std::max(std::abs(d_low), std::abs(d_high));
+  const FourTag four;
+  const auto lesser = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
+  const auto greater = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
+  const auto& d = out.direction;
+  alignas(16) float d_low[4], d_high[4], weak[4];
+  merge_four(d[0], d[1], d[2], d[2], lesser, d_low);
+  merge_four(d[0], d[1], d[2], d[2], greater, d_high);
+  const float wx = d_high[0] - d_low[0], wy = d_high[1] - d_low[1], wz = d_high[2] - d_low[2];
+  constexpr float kWidest = 0.45f;  // about 25 degrees
+  if (!(wx * wx + wy * wy + wz * wz < kWidest * kWidest)) return false;
+  merge_four(out.origin[0], out.origin[1], out.origin[2], out.t_min, lesser, out.origin_low);
+  merge_four(out.origin[0], out.origin[1], out.origin[2], out.origin[2], greater, out.origin_high);
+  out.t_least = out.origin_low[3];
+  for (size_t i = 0; i < 4; i += hn::MaxLanes(four)) {
+    const auto low = hn::Load(four, d_low + i), high = hn::Load(four, d_high + i), tiny = hn::Set(four, kTinySlope);
+    const auto one_way = hn::Or(hn::Gt(low, tiny), hn::Lt(high, hn::Neg(tiny)));
+    const auto weakest = hn::IfThenElseZero(one_way, hn::Min(hn::Abs(low), hn::Abs(high)));
+    const auto most = hn::Max(hn::Abs(low), hn::Abs(high)), one = hn::Set(four, 1.0f);
+    hn::Store(weakest, four, weak + i);
+    hn::Store(most, four, out.direction_most + i);
     // Quotients are rounded alike here and by lane.
-    out.slope_low[axis] = 1.0f / out.direction_most[axis], out.slope_high[axis] = 1.0f / weakest;
-    if (weakest > most) most = weakest, out.kz = axis;
+    hn::Store(hn::Div(one, most), four, out.slope_low + i);
+    hn::Store(hn::Div(one, weakest), four, out.slope_high + i);
   }
+  for (int axis = 0; axis < 3; ++axis) {
+    out.is_mixed[axis] = weak[axis] == 0.0f;
+    out.near_side[axis] = d_high[axis] < 0.0f;
+  }
+  out.kz = weak[0] >= weak[1] && weak[0] >= weak[2] ? 0 : weak[1] >= weak[2] ? 1 : 2;
+  const float most = weak[out.kz];
   if (!(most >= 0.5f)) return false;
-  out.kx = (out.kz + 1) % 3, out.ky = (out.kz + 2) % 3;
+  out.kx = out.kz == 2 ? 0 : out.kz + 1, out.ky = out.kz == 0 ? 2 : out.kz - 1;
   for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
     const auto inverse = hn::Load(tag, out.inverse[out.kz] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
@@ -222,7 +285,6 @@ HWY_INLINE bool bound_lanes(PacketRays& out) {
   }
   const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / most;
   out.slack = kSheared * std::max(1.0f, slope);  // what is rounded before it is sheared grows with the slope
-  out.t_least = least_of(out.t_min);
   return true;
 }
 
@@ -263,13 +325,6 @@ HWY_INLINE uint32_t boxes_met(const PacketRays& rays, const Plane& plane, float 
     mask |= static_cast<uint32_t>(bits[0]) << i;
   }
   return mask;
-}
-
-template <class Mask>
-HWY_INLINE uint32_t lane_bits(Mask mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(LaneTag(), mask, bits);
-  return bits[0] | static_cast<uint32_t>(bits[1]) << 8;
 }
 
 // The lanes that meet the c-th box of a node, as bits.

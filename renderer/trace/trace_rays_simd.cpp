@@ -13,15 +13,13 @@ namespace tilelight {
 namespace HWY_NAMESPACE {
 
 void trace_closest_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
-  trace_packets<PacketWalk<false>>(
-      scene, rays, [&](size_t i, const auto& packet, size_t lane) { hits[i] = packet.hit(lane); },
-      [&](size_t i) HWY_ATTR { hits[i] = Walk<false>(scene, rays[i]).run(); });
+  trace_packets<PacketWalk<false>>(scene, rays, hits,
+                                   [&](size_t i) HWY_ATTR { hits[i] = Walk<false>(scene, rays[i]).run(); });
 }
 
 void trace_any_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked) {
   trace_packets<PacketWalk<true>>(
-      scene, rays, [&](size_t i, const auto& packet, size_t lane) { is_blocked[i] = packet.is_blocked(lane); },
-      [&](size_t i) HWY_ATTR { is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit(); });
+      scene, rays, is_blocked, [&](size_t i) HWY_ATTR { is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit(); });
 }
 
 void trace_body_ray(const CompiledScene& scene, uint32_t body, const Ray& ray, Hit& hit) {

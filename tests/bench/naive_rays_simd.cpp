@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/naive_rays.h"
 
+#include <vector>
+
 #include "renderer/base/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +20,8 @@ template <bool kAnyHit>
 struct NaiveTriangles {
   static constexpr bool kInDouble = false;
 
-  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays&, LaneHits& lane) {
+  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays&,
+                                   LaneHits& lane) {
     constexpr float kEpsilon = 1e-4f;
     const LaneTag tag;
     const LaneIntTag int_tag;
@@ -58,21 +61,19 @@ struct NaiveTriangles {
 
 void naive_closest_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
   trace_packets<PacketWalk<false, NaiveTriangles<false>>>(
-      scene, rays, [&](size_t i, const auto& packet, size_t lane) { hits[i] = packet.hit(lane); },
-      [&](size_t i) HWY_ATTR { hits[i] = Walk<false>(scene, rays[i]).run(); });
+      scene, rays, hits, [&](size_t i) HWY_ATTR { hits[i] = Walk<false>(scene, rays[i]).run(); });
 }
 
 void naive_any_rays(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<uint8_t> is_blocked) {
   trace_packets<PacketWalk<true, NaiveTriangles<true>>>(
-      scene, rays, [&](size_t i, const auto& packet, size_t lane) { is_blocked[i] = packet.is_blocked(lane); },
-      [&](size_t i) HWY_ATTR { is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit(); });
+      scene, rays, is_blocked, [&](size_t i) HWY_ATTR { is_blocked[i] = Walk<true>(scene, rays[i]).run().is_hit(); });
 }
 
 void count_undecided(const CompiledScene& scene, std::span<const BoundedRay> rays, int64_t& closest, int64_t& any) {
-  trace_packets<PacketWalk<false>>(
-      scene, rays, [](size_t, const auto&, size_t) {}, [&](size_t) { ++closest; });
-  trace_packets<PacketWalk<true>>(
-      scene, rays, [](size_t, const auto&, size_t) {}, [&](size_t) { ++any; });
+  std::vector<Hit> hits(rays.size());
+  std::vector<uint8_t> is_blocked(rays.size());
+  trace_packets<PacketWalk<false>>(scene, rays, std::span(hits), [&](size_t) { ++closest; });
+  trace_packets<PacketWalk<true>>(scene, rays, std::span(is_blocked), [&](size_t) { ++any; });
 }
 
 }  // namespace HWY_NAMESPACE
