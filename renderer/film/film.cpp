@@ -31,10 +31,25 @@ void Film::grow(uint32_t samples) {
   const size_t floats = static_cast<size_t>(width_) * height_ * 3;
   for (uint32_t i = 0; i < std::min(samples, kSampleBlocks); ++i) {
     if (planes_[i]) continue;
-    // The system's own zeros: a page of them is made when a thread first writes there, not here by one for all.
-    planes_[i].reset(static_cast<float*>(std::calloc(floats, sizeof(float))));
+    // As it comes: zeros that one thread writes here would keep all the others waiting.
+    planes_[i].reset(static_cast<float*>(std::malloc(floats * sizeof(float))));
     if (!planes_[i]) throw std::bad_alloc();
   }
+}
+
+void Film::fill_black(uint32_t samples) {
+  grow(samples);
+  const size_t floats = static_cast<size_t>(width_) * height_ * 3;
+  for (uint32_t block = 0; block < blocks_in_use(samples); ++block) std::fill_n(planes_[block].get(), floats, 0.0f);
+  std::fill(samples_.begin(), samples_.end(), samples);
+}
+
+double Film::mean_samples() const {
+  uint64_t sum = 0;
+  for_each_cell({0, 0, width_, height_}, [&](const TileRect& cell) {
+    sum += samples_[cell_at(cell.x0, cell.y0)] * static_cast<uint64_t>(cell.pixel_count());
+  });
+  return static_cast<double>(sum) / (static_cast<double>(width_) * height_);
 }
 
 SamplePlanes Film::planes() const {
@@ -50,7 +65,6 @@ int64_t Film::bytes() const {
 
 void Film::copy(const TileRect& part, const Film& from) {
   for_each_cell(part, [&](const TileRect& cell) {
-    // Blocks whose turn has not come are zero here too, and cost no memory.
     const uint32_t blocks = blocks_in_use(from.samples_[cell_at(cell.x0, cell.y0)]);
     for (uint32_t block = 0; block < blocks; ++block) {
       for (int y = cell.y0; y < cell.y1; ++y) {

@@ -79,7 +79,10 @@ class TileView {
   void add(int x, int y, uint32_t index, float r, float g, float b) {
     const size_t at = (static_cast<size_t>(y) * film_width_ + x) * 3;
     if (index >= kSampleBlocks && std::has_single_bit(index)) join_blocks(at);
-    float* p = planes_[index / sample_block_length(index)] + at;
+    const int shift = std::countr_zero(sample_block_length(index));
+    float* const p = planes_[index >> shift] + at;
+    // What was there before a block's first sample is of no account, and was never written by anybody.
+    if (index == index >> shift << shift) p[0] = 0.0f, p[1] = 0.0f, p[2] = 0.0f;
     p[0] += r, p[1] += g, p[2] += b;
   }
 
@@ -89,7 +92,6 @@ class TileView {
     for (size_t channel = at; channel < at + 3; ++channel) {
       for (size_t i = 0; i < kSampleBlocks / 2; ++i)
         planes_[i][channel] = planes_[2 * i][channel] + planes_[2 * i + 1][channel];
-      for (size_t i = kSampleBlocks / 2; i < kSampleBlocks; ++i) planes_[i][channel] = 0.0f;
     }
   }
 
@@ -102,9 +104,11 @@ class Film {
   Film(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
-  // Room for that many samples in every pixel; memory comes as it is written. Blocks whose turn never comes cost
-  // nothing.
+  // Room for that many samples in every pixel. Nobody has written there: of a pixel only the blocks of its samples mean
+  // something.
   void grow(uint32_t samples);
+  // So many black samples in every pixel.
+  void fill_black(uint32_t samples);
   TileView view() { return TileView(planes(), width_); }
   // By cell, row by row: samples in each of its pixels. Set by the owner, after whole passes.
   size_t cell_at(int x, int y) const {
@@ -112,6 +116,7 @@ class Film {
   }
   std::vector<uint32_t>& samples() { return samples_; }
   const std::vector<uint32_t>& samples() const { return samples_; }
+  double mean_samples() const;  // of all pixels
   SamplePlanes planes() const;  // null beyond what has grown
   int64_t bytes() const;        // that the planes may take
   // Takes over the samples of a part from a film of the same size; their numbers are the owner's to take over. Parts

@@ -105,7 +105,7 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   // What the image plane of an orthographic eye cuts is known by the place in the image, which moves.
   const bool has_own_media = plan.eye.projection == Projection::orthographic && scene.media > 0;
   Film film(count * kCellPx, kCellPx);
-  film.grow(kProbeSamples);
+  film.fill_black(kProbeSamples);  // what no spot covers stays so, and differs in nothing
   TileView view = film.view();
   std::vector<int64_t> rays;
   const auto start = Clock::now();
@@ -129,8 +129,6 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   for (const int64_t r : rays) probe.costs.push_back(static_cast<double>(r) * asked / all_rays);
   probe.image_part = static_cast<double>(asked) / (static_cast<double>(image.width) * image.height);
 
-  // What no spot covers is black in every sample, and differs in nothing.
-  std::fill(film.samples().begin(), film.samples().end(), kProbeSamples);
   ErrorMap map(film.width(), film.height(), image.exposure);
   Image means{film.width(), film.height(), std::vector<float>(static_cast<size_t>(film.width()) * film.height() * 3)};
   const TileRect all{0, 0, film.width(), film.height()};

@@ -306,7 +306,7 @@ class TileRender final : public Render, public WorkSource {
         error_map_.pool(film_);
         break;
       case Stage::spread:
-        return finish_pass(samples_a_pixel(), error_map_.summary(), error_map_.bounds());
+        return finish_pass(film_.mean_samples(), error_map_.summary(), error_map_.bounds());
     }
     const std::lock_guard lock(mutex_);
     if (stage_ == Stage::trace && step_first_ + step_samples_ < pass_length_) {
@@ -334,9 +334,17 @@ class TileRender final : public Render, public WorkSource {
     return Then::announce_end;
   }
 
-  std::shared_ptr<Image> new_image() const {
+  // For the pass in work to write all of.
+  std::shared_ptr<Image> new_image() {
+    if (spare_image_) return std::move(spare_image_);
     return std::make_shared<Image>(
         Image{width_, height_, std::vector<float>(static_cast<size_t>(width_) * height_ * 3)});
+  }
+
+  // REQUIRES: mutex_. The image before it serves once more, unless somebody has asked for it: fresh memory is dear.
+  void show_next_image() {
+    if (exposed_->image.use_count() == 1) spare_image_ = std::const_pointer_cast<Image>(exposed_->image);
+    exposed_->image = std::move(next_image_);
   }
 
   Then finish_pass(double spp, const ErrorSummary& error, std::vector<float> bounds) {
@@ -350,7 +358,7 @@ class TileRender final : public Render, public WorkSource {
                    .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp),
                    .was_for_all = is_for_all_};
       if (error.is_known) standing_.rmse = error.high;
-      exposed_->image = std::move(next_image_);
+      show_next_image();
       exposed_->error_bounds = std::move(error_bounds);
       if (standing_.passes > static_cast<int>(before_.passes.size())) {
         report_.passes.push_back(pass_samples_);
@@ -383,14 +391,6 @@ class TileRender final : public Render, public WorkSource {
     if (state_ != RenderState::running || !cancelled_.load(std::memory_order_relaxed)) return then;
     end_early();
     return Then::announce_end;
-  }
-
-  double samples_a_pixel() const {
-    uint64_t sum = 0;
-    for_each_cell({0, 0, width_, height_}, [&](const TileRect& cell) {
-      sum += film_.samples()[film_.cell_at(cell.x0, cell.y0)] * static_cast<uint64_t>(cell.pixel_count());
-    });
-    return static_cast<double>(sum) / (static_cast<double>(width_) * height_);
   }
 
   Then begin() {
@@ -531,7 +531,8 @@ class TileRender final : public Render, public WorkSource {
   ErrorMap& error_map_ = exposed_->error_map;
   std::unique_ptr<Sketch> sketch_;     // while that is the pass in work
   std::shared_ptr<Image> next_image_;  // of the pass in work
-  std::vector<uint32_t> targets_;      // by cell: its samples after the pass in work
+  std::shared_ptr<Image> spare_image_;
+  std::vector<uint32_t> targets_;  // by cell: its samples after the pass in work
 
   mutable std::mutex mutex_;
   mutable std::condition_variable ended_;

@@ -50,11 +50,10 @@ ErrorMap map_of(const Film& film, const Image& image) {
 TEST(Film, ResolvesToTheMeanOfItsSamplesPixelByPixel) {
   for (const uint32_t count : {1u, 2u, 7u, 8u, 9u, 16u, 37u, 100u, 128u}) {
     Film film(5, 3);
-    film.grow(count);
+    film.fill_black(count);
     TileView view = film.view();
     // Whole numbers: every sum is exact.
     for (uint32_t i = 0; i < count; ++i) view.add(4, 2, i, static_cast<float>(i), 10.0f * static_cast<float>(i), 1.0f);
-    film.samples()[film.cell_at(4, 2)] = count;
     const Image image = resolved(film);
     const float mean = 0.5f * static_cast<float>(count - 1);
     const size_t at = (2 * 5 + 4) * 3;
@@ -97,6 +96,50 @@ TEST(ErrorMap, KnowsNothingOfASingleSampleAndTheTruthOfAConstant) {
 }
 
 // Where all is clamped to white, whatever is wrong does not show.
+TEST(ErrorMap, BoundsASingleSampleByWhatItsNeighboursShow) {
+  for (const auto& [width, height] : {std::pair(1, 1), {2, 1}, {1, 5}, {5, 3}, {37, 9}, {70, 41}}) {
+    Film film(width, height);
+    // Bytes of the display, so that rounding to them loses nothing.
+    const auto byte_at = [](int x, int y) { return (37 * x + 101 * y + x * y * y) % 256; };
+    take(film, all_of(film), 1, 1, [&](double x, double y) {
+      return static_cast<float>(linear_from_srgb(byte_at(static_cast<int>(x), static_cast<int>(y)) / 255.0));
+    });
+    const std::vector<float> bounds = map_of(film, resolved(film)).bounds();
+    for_each_pixel(all_of(film), [&](int x, int y) {
+      double sum = 0.0;
+      int count = 0;
+      for_each_pixel({std::max(0, x - 1), std::max(0, y - 1), std::min(width, x + 2), std::min(height, y + 2)},
+                     [&](int u, int v) {
+                       sum += std::pow((byte_at(u, v) - byte_at(x, y)) / 255.0, 2.0);
+                       count += u != x || v != y;
+                     });
+      const double contrast = count > 0 ? std::sqrt(sum / count) : 0.0;
+      ASSERT_NEAR(bounds[static_cast<size_t>(y) * width + x], 1.96 * contrast, 1e-6) << width << " " << x << "," << y;
+    });
+  }
+}
+
+TEST(ErrorMap, SaysTheSameHoweverTheImageIsCut) {
+  Film film(131, 70);
+  const Shade shade = [](double x, double y) { return static_cast<float>(0.5 + 0.5 * std::sin(0.003 * x * y)); };
+  take(film, all_of(film), 4, 1, shade);
+  take(film, {0, 0, 60, 40}, 8, 1, shade);
+  take(film, {32, 16, 44, 28}, 40, 1, shade);
+  const Image image = resolved(film);
+  const ErrorMap whole = map_of(film, image);
+  for (const int edge : {4, 12, 32, 100}) {
+    ErrorMap cut(film.width(), film.height(), 0.0);
+    const int tiles = tile_count(film.width(), film.height(), edge);
+    const auto part = [&](int i) { return tile_rect(i, film.width(), film.height(), edge); };
+    for (int i = 0; i < tiles; ++i) cut.measure(film, image, part(i));
+    cut.pool(film);
+    for (int i = tiles; i-- > 0;) cut.spread(film, part(i));
+    EXPECT_EQ(cut.bounds(), whole.bounds()) << edge;
+    EXPECT_EQ(cut.cell_variances(), whole.cell_variances()) << edge;
+    EXPECT_EQ(cut.summary().rmse, whole.summary().rmse) << edge;
+  }
+}
+
 TEST(ErrorMap, CountsWhatIsDisplayed) {
   const Shade lines = [](double x, double) { return std::fmod(x, 1.0) < 0.3 ? 2.0f : 8.0f; };
   Film film(16, 16);

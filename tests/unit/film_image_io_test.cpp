@@ -45,6 +45,28 @@ TEST(ImageIo, PngKeepsEveryByte) {
   EXPECT_EQ(back->rgb, to_srgb8(image, -0.5));
 }
 
+TEST(ImageIo, PngKeepsEveryByteOfAnySizeAndContent) {
+  uint32_t random = 1;
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 300}, {701, 1}, {3, 2}, {256, 256}, {600, 500}}) {
+    for (const int kind : {0, 1, 2}) {  // one colour, stripes that one filter or the other leaves nothing of, noise
+      Image image{width, height, {}};
+      for (int i = 0; i < width * height * 3; ++i) {
+        random = 1664525 * random + 1013904223;
+        const int row = i / (3 * width);
+        image.rgb.push_back(kind == 0   ? 0.2f
+                            : kind == 1 ? static_cast<float>((row % 2 ? row : i / 3 % width) % 7) / 7.0f
+                                        : static_cast<float>(random >> 8) * 0x1p-24f);
+      }
+      const auto bytes = encode_image(image, 0.0, ImageFormat::png);
+      ASSERT_TRUE(bytes);
+      const auto back = decode_image(*bytes, ImageFormat::png, 1 << 20);
+      ASSERT_TRUE(back) << back.error().detail;
+      EXPECT_EQ(std::pair(back->width, back->height), std::pair(width, height));
+      EXPECT_TRUE(back->rgb == to_srgb8(image, 0.0)) << width << "x" << height << " " << kind;
+    }
+  }
+}
+
 TEST(ImageIo, PngSaysThatItIsSrgbAndHoldsNoTime) {
   const auto bytes = encode_image(gradient(8, 8), 0.0, ImageFormat::png);
   ASSERT_TRUE(bytes);
