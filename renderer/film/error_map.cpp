@@ -83,7 +83,7 @@ void ErrorMap::measure_run(const Film& film, const Image& image, const TileRect&
     for (size_t k = 0; k < row.count; ++k) {
       const size_t channel = row.channel[k];
       own[channel] = row.variance[k];
-      for (size_t level = 0; level < kErrorLevels; ++level)
+      for (size_t level = 0; level < rule.pairs.levels(); ++level)
         sums[channel / (3 * kCellPx)][level] += row.levels[level][k];
     }
     float* const out = &own_[at(run.x0, y)];

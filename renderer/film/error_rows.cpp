@@ -60,7 +60,7 @@ void find_differences(const SamplePlanes& planes, size_t channels, const ErrorRu
   std::array<const float*, kSampleBlocks> blocks;
   std::copy(planes.begin(), planes.end(), blocks.begin());
   out.variance = {};
-  for (size_t level = 0; level < kErrorLevels; ++level) {
+  for (size_t level = 0; level < rule.pairs.levels(); ++level) {
     float* const of_level = out.levels[level].data();
     std::fill_n(of_level, channels, 0.0f);
     for (size_t pair = 0; pair < rule.pairs.at(static_cast<int>(level)); ++pair) {
@@ -158,7 +158,7 @@ void measure_row(const SamplePlanes& planes, const float* mean, size_t channels,
     const float deviation = ratio[k] * std::max(middle[k] - low[k], high[k] - middle[k]);
     out.variance[k] = deviation * deviation;
   }
-  for (size_t level = 0; level < kErrorLevels; ++level) {
+  for (size_t level = 0; level < rule.pairs.levels(); ++level) {
     for (size_t k = 0; k < count; ++k) {
       const float of_level = differences.levels[level][out.channel[k]];
       out.levels[level][k] = out.variance[k] * (of_level / variance[k]);

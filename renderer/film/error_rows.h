@@ -19,6 +19,7 @@ struct BlockPairs {
   explicit BlockPairs(uint32_t samples) : length(sample_block_length(samples - 1)), blocks(samples / length) {}
   uint32_t at(int level) const { return blocks >> (level + 1); }
   uint32_t total() const { return at(0) + at(1) + at(2); }
+  size_t levels() const { return static_cast<size_t>(std::bit_width(blocks)) - 1; }  // that have any
   uint32_t length, blocks;
 };
 
