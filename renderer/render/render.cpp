@@ -334,17 +334,9 @@ class TileRender final : public Render, public WorkSource {
     return Then::announce_end;
   }
 
-  // For the pass in work to write all of.
-  std::shared_ptr<Image> new_image() {
-    if (spare_image_) return std::move(spare_image_);
+  std::shared_ptr<Image> new_image() const {
     return std::make_shared<Image>(
         Image{width_, height_, std::vector<float>(static_cast<size_t>(width_) * height_ * 3)});
-  }
-
-  // REQUIRES: mutex_. The image before it serves once more, unless somebody has asked for it: fresh memory is dear.
-  void show_next_image() {
-    if (exposed_->image.use_count() == 1) spare_image_ = std::const_pointer_cast<Image>(exposed_->image);
-    exposed_->image = std::move(next_image_);
   }
 
   Then finish_pass(double spp, const ErrorSummary& error, std::vector<float> bounds) {
@@ -358,7 +350,7 @@ class TileRender final : public Render, public WorkSource {
                    .ms_per_sample = (elapsed - standing_.elapsed_ms) / std::max(1e-9, spp - standing_.spp),
                    .was_for_all = is_for_all_};
       if (error.is_known) standing_.rmse = error.high;
-      show_next_image();
+      exposed_->image = std::move(next_image_);
       exposed_->error_bounds = std::move(error_bounds);
       if (standing_.passes > static_cast<int>(before_.passes.size())) {
         report_.passes.push_back(pass_samples_);
@@ -531,8 +523,7 @@ class TileRender final : public Render, public WorkSource {
   ErrorMap& error_map_ = exposed_->error_map;
   std::unique_ptr<Sketch> sketch_;     // while that is the pass in work
   std::shared_ptr<Image> next_image_;  // of the pass in work
-  std::shared_ptr<Image> spare_image_;
-  std::vector<uint32_t> targets_;  // by cell: its samples after the pass in work
+  std::vector<uint32_t> targets_;      // by cell: its samples after the pass in work
 
   mutable std::mutex mutex_;
   mutable std::condition_variable ended_;
