@@ -87,7 +87,8 @@ void print_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
   for (const LeftOut& item : left_out) width = std::max(width, item.what.size());
   out << "\nleft out, and so costing nothing\n";
   for (const LeftOut& item : left_out)
-    out << "  " << std::left << std::setw(static_cast<int>(width)) << item.what << "  " << item.why << "\n";
+    out << "  " << std::left << std::setw(static_cast<int>(width)) << item.what << "  " << item.why
+        << (item.cost.empty() ? "" : " (would cost " + item.cost + ")") << "\n";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "renderer/base/safe_length.h"
+#include "renderer/compile/cost_text.h"
 #include "renderer/compile/passes.h"
 #include "renderer/compile/reach.h"
 
@@ -77,7 +78,8 @@ std::vector<CompiledMaterial> drop_unused_materials(const Scene& scene, std::vec
   }
   for (size_t i = 0; i < place.size(); ++i) {
     if (place[i] == kUnused && !scene.materials[i].name.empty()) {
-      left_out.push_back({"material " + scene.materials[i].name, "no object wears it"});
+      left_out.push_back({"material " + scene.materials[i].name, "no object wears it",
+                          bytes_text(static_cast<int64_t>(sizeof(CompiledMaterial)))});
     }
   }
   return kept;
@@ -88,14 +90,18 @@ std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vecto
   const bool something_reflects = std::any_of(materials.begin(), materials.end(), [](const CompiledMaterial& m) {
     return m.is_specular || !is_zero(m.source.diffuse);
   });
+  // What a light costs is up to the view, which plan_view knows.
+  const auto leave_out = [&](size_t i, const char* why) {
+    left_out.push_back({.what = title_of(scene.lights[i], i), .why = why, .kind = LeftOut::Kind::light});
+  };
   std::vector<CompiledLight> kept;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     const Color intensity = light.color * light.intensity;
     if (is_zero(intensity)) {
-      left_out.push_back({title_of(light, i), "its colour times its intensity is black"});
+      leave_out(i, "its colour times its intensity is black");
     } else if (!something_reflects) {
-      left_out.push_back({title_of(light, i), "no material has a diffuse or specular part to light"});
+      leave_out(i, "no material has a diffuse or specular part to light");
     } else {
       CompiledLight compiled;
       compiled.kind = light.kind;
@@ -185,7 +191,7 @@ FeatureSet features_of(const CompiledScene& scene, const Reach& reach) {
 FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out) {
   const FeatureSet f = features_of(scene, Reach::everything(scene.bodies.size()));
   const auto say = [&](Feature feature, const char* why) {
-    if (!f.has(feature)) left_out.push_back({"feature " + std::string(feature_name(feature)), why});
+    if (!f.has(feature)) left_out.push_back(left_out_feature(feature, why));
   };
   say(Feature::spheres, "the scene has no sphere");
   say(Feature::boxes, "the scene has no cube, box or board");

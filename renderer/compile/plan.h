@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/vec.h"
@@ -55,9 +56,19 @@ std::string_view variant_name(KernelVariant variant);
 
 // One thing that costs nothing because this scene or this view cannot show it.
 struct LeftOut {
-  std::string what;  // "light lights/2", "feature reflection", "material ivory", ...
-  std::string why;   // a sentence
+  enum class Kind { feature, light, other };
+  std::string what = {};  // "light lights/2", "feature reflection", "material ivory", ...
+  std::string why = {};   // a sentence
+  std::string cost = {};  // what it would have cost, counted in this scene or view or measured by a bench; empty where
+                          // neither can tell
+  Kind kind = Kind::other;
+  Feature feature = {};  // kind feature only
 };
+
+inline LeftOut left_out_feature(Feature feature, std::string why, std::string cost = {}) {
+  return {"feature " + std::string(feature_name(feature)), std::move(why), std::move(cost), LeftOut::Kind::feature,
+          feature};
+}
 
 // How far the scene's numbers lie apart: where it is hard on floating point.
 struct Stiffness {

@@ -14,7 +14,10 @@ std::string plan_json(const Plan& plan) {
     if (plan.features.has(feature)) features.push_back(feature_name(feature));
   }
   Json left_out = Json::array();
-  for (const LeftOut& item : plan.left_out) left_out.push_back({{"what", item.what}, {"why", item.why}});
+  for (const LeftOut& item : plan.left_out) {
+    left_out.push_back({{"what", item.what}, {"why", item.why}});
+    if (!item.cost.empty()) left_out.back()["cost"] = item.cost;
+  }
   const Json out = {{"features", features},
                     {"kernel", plan.kernel},
                     {"isa", plan.isa},

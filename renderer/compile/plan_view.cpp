@@ -7,6 +7,7 @@
 #include "renderer/base/standard_floats.h"
 #include "renderer/compile/compile.h"
 #include "renderer/compile/compiled_scene.h"
+#include "renderer/compile/cost_text.h"
 #include "renderer/compile/reach.h"
 #include "renderer/compile/stopwatch.h"
 #include "renderer/compile/tessellate.h"
@@ -55,6 +56,7 @@ class ViewPlanner {
     leave_out_unreached();
     leave_out_unasked();
     if (is_tessellated(spec())) cut_spheres();
+    set_costs();
     out_.variant = choose_variant(out_.features);
     out_.plan.features = out_.features;
     out_.plan.kernel = variant_name(out_.variant);
@@ -68,10 +70,10 @@ class ViewPlanner {
   const RenderSpec& spec() const { return out_.view.render; }
   bool follows_rays() const { return spec().algorithm == Algorithm::raytrace; }
 
-  void leave_out(Feature feature, const std::string& why) {
+  void leave_out(Feature feature, const std::string& why, const std::string& cost = {}) {
     if (!out_.features.has(feature)) return;
     out_.features.remove(feature);
-    out_.plan.left_out.push_back({"feature " + std::string(feature_name(feature)), why});
+    out_.plan.left_out.push_back(left_out_feature(feature, why, cost));
   }
 
   void set_eye() {
@@ -99,21 +101,37 @@ class ViewPlanner {
   }
 
   void leave_out_unasked() {
+    const auto casting = std::count_if(scene_.lights.begin(), scene_.lights.end(),
+                                       [](const CompiledLight& light) { return light.shadow; });
+    const std::string shadow_rays = first_hits_text(out_.view, casting, "shadow rays");
     if (!spec().shadows) {
-      leave_out(Feature::shadows, "the view asks for none");
+      leave_out(Feature::shadows, "the view asks for none", shadow_rays);
       leave_out(Feature::tinted_shadows, "the view asks for no shadows");
     }
     if (hides_nothing_)
-      leave_out(Feature::shadows, "a single convex body, seen from outside, hides nothing of itself from a light");
+      leave_out(Feature::shadows, "a single convex body, seen from outside, hides nothing of itself from a light",
+                shadow_rays);
     if (spec().max_depth > 0) return;
     const std::string why = follows_rays()
                                 ? "max_depth is 0: local light only"
                                 : std::string(get_word(kAlgorithms, spec().algorithm)) + " knows local light only";
-    leave_out(Feature::reflection, why);
+    leave_out(Feature::reflection, why, first_hits_text(out_.view, 1, "reflected rays"));
     // Of two media that overlap, one hides surfaces of the other, at any depth.
-    if (scene_.media <= 1) leave_out(Feature::transmission, why);
+    if (scene_.media <= 1) leave_out(Feature::transmission, why, first_hits_text(out_.view, 1, "refracted rays"));
     leave_out(Feature::nested_media, why);
     leave_out(Feature::fresnel, why);
+  }
+
+  // Of what the scene had left out before the view was known, or what the kernel need not do.
+  void set_costs() {
+    for (LeftOut& item : out_.plan.left_out) {
+      if (!item.cost.empty()) continue;
+      if (item.kind == LeftOut::Kind::light) {
+        item.cost = first_hits_text(out_.view, 1, "evaluations of the light equation");
+      } else if (item.kind == LeftOut::Kind::feature && follows_rays()) {
+        item.cost = kernel_cost_text(out_.features, item.feature).value_or("");
+      }
+    }
   }
 
   void cut_spheres() {

@@ -12,8 +12,8 @@
 namespace tilelight {
 namespace {
 
-// More bodies would take longer to look at than a plan may: a tenth of a microsecond for a sphere, one for a mesh.
-constexpr size_t kMostBodies = 1024;
+// Looking at more would take longer than a plan may: a body takes about a tenth of a microsecond.
+constexpr size_t kMostBodies = 4096;
 // Samples lie up to one pixel outside the picture; the second is for rounding.
 constexpr double kReachPx = 2.0;
 // Above what rounding may do to coordinates near 1, and to their products with a unit vector.

@@ -254,10 +254,12 @@ TEST_F(Command, TellsThePlanForPeopleAndForPrograms) {
   EXPECT_NE(people.out.find("predicted"), std::string::npos) << people.out;
   EXPECT_NE(people.out.find("left out"), std::string::npos) << people.out;
   EXPECT_NE(people.out.find("transmission"), std::string::npos) << people.out;
+  EXPECT_NE(people.out.find("(would cost "), std::string::npos) << people.out;
   const Outcome programs = run({"plan", "scene.json", "--json"});
   EXPECT_EQ(programs.code, 0);
   EXPECT_EQ(programs.out.front(), '{');
   EXPECT_NE(programs.out.find("\"left_out\""), std::string::npos);
+  EXPECT_NE(programs.out.find("\"cost\":\""), std::string::npos);
 }
 
 TEST_F(Command, RendersAChessPositionAsItsPrintedSceneDoes) {

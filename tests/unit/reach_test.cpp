@@ -26,12 +26,12 @@ class Reaches : public testing::Test {
     }
   };
 
-  Planned plan(const std::string& objects, const std::string& lights = kLightAbove, const std::string& more = "") {
+  Planned plan(const std::string& objects, const std::string& lights = kLightAbove) {
     const std::string json = R"({"image": {"width": 64, "height": 48}, "render": {"samples": 4},
       "camera": {"position": [0, 0, 0], "target": [0, 0, -1]},
       "materials": {"mirror": {"reflection": 0.5}, "glass": {"diffuse": 0, "transmission": 0.8}},
       "lights": [)" + lights +
-                             R"(], "objects": [)" + objects + "]" + more + "}";
+                             R"(], "objects": [)" + objects + "]}";
     const auto parsed = parse_scene(json, Limits{});
     if (!parsed) ADD_FAILURE() << parsed.error().errors[0].detail << json;
     Planned out{compile_scene(parsed->scene, pool_), {}};
@@ -139,6 +139,22 @@ TEST_F(Reaches, NothingAtAllWhereTheEyeLooksAway) {
   EXPECT_EQ(p.plan.variant, KernelVariant::local);
   EXPECT_EQ(p.plan.features, FeatureSet{});
   EXPECT_TRUE(is_same_as_by_the_full_kernel(p.scene, p.plan));
+}
+
+TEST_F(Reaches, NoMoreShadowRaysThanAPlanWithoutThemSaysTheyWouldHaveCost) {
+  const std::string two = std::string(kBall) + R"(, {"type": "sphere", "center": [1, 0, -7]})";
+  const Planned with = plan(two);
+  View plain = with.plan.view;
+  plain.render.shadows = false;
+  const ViewPlan off = plan_view(*with.scene, plain);
+  const auto said = std::find_if(off.plan.left_out.begin(), off.plan.left_out.end(),
+                                 [](const LeftOut& item) { return item.what == "feature shadows"; });
+  ASSERT_NE(said, off.plan.left_out.end());
+  EXPECT_EQ(said->cost, "up to 12288 shadow rays at first hits");  // 64 * 48 * 4
+  const auto render = Render::start(pool_, Priority::normal, with.scene, with.plan);
+  render->wait_ms(1e12);
+  EXPECT_GT(render->report().points.back().rays.shadow, 0);
+  EXPECT_LE(render->report().points.back().rays.shadow, 12288);
 }
 
 TEST_F(Reaches, ManyBodiesAreLeftOutInOneLine) {

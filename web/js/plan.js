@@ -50,7 +50,8 @@ function chips(names) {
 function leftOut(entries) {
   if (entries.length === 0) return el('p', { class: 'muted' }, 'Nothing: this scene uses all there is.');
   return el('dl', { class: 'left-out' },
-    ...entries.flatMap(({ what, why }) => [el('dt', {}, words(what).replace(/^feature /, '')), el('dd', {}, why)]));
+    ...entries.flatMap(({ what, why, cost }) => [el('dt', {}, words(what).replace(/^feature /, '')),
+      el('dd', {}, cost ? `${why}; it would cost ${cost}` : why)]));
 }
 
 function warnings(entries) {
