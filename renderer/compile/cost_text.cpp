@@ -17,10 +17,20 @@ std::string two_digits(double value) {
   return out.str();
 }
 
-std::string count_text(double count) {
-  if (count >= 1e9) return two_digits(count / 1e9) + " billion";
-  if (count >= 1e6) return two_digits(count / 1e6) + " million";
-  return two_digits(count);
+// Three digits, rounded up: it is a bound.
+std::string three_digits_up(double value) {
+  double unit = 0.01;
+  while (value > 999.0 * unit) unit *= 10.0;
+  std::ostringstream out;
+  out.precision(12);
+  out << std::ceil(value / unit * (1.0 - 1e-12)) * unit;
+  return out.str();
+}
+
+std::string bound_text(double count) {
+  if (count >= 1e9) return three_digits_up(count / 1e9) + " billion";
+  if (count >= 1e6) return three_digits_up(count / 1e6) + " million";
+  return three_digits_up(count);
 }
 
 struct KernelPrice {
@@ -50,7 +60,7 @@ std::string first_hits_text(const View& view, int64_t times, const std::string& 
   const bool is_known = spec.samples && !spec.samples_implied && spec.passes.empty();
   const double hits =
       static_cast<double>(times) * view.image.width * view.image.height * (is_known ? *spec.samples : 1);
-  return "up to " + count_text(hits) + " " + what + " at first hits" + (is_known ? "" : ", for each sample a pixel");
+  return "up to " + bound_text(hits) + " " + what + " at first hits" + (is_known ? "" : ", for each sample a pixel");
 }
 
 std::optional<std::string> kernel_cost_text(const FeatureSet& features, Feature more) {

