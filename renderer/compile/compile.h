@@ -8,8 +8,8 @@
 
 #include "renderer/compile/eye.h"
 #include "renderer/compile/plan.h"
-#include "renderer/schedule/tile_pool.h"
 #include "renderer/scene/scene.h"
+#include "renderer/schedule/tile_pool.h"
 
 namespace tilelight {
 
@@ -23,12 +23,12 @@ const Plan& scene_plan(const CompiledScene& scene);
 
 // Everything one render needs to know beside the compiled scene.
 struct ViewPlan {
-  View view;         // with the camera filled in
-  Camera camera;     // as used, user's units
-  Eye eye;           // the camera in normalised space
+  View view;      // with the camera filled in
+  Camera camera;  // as used, user's units
+  Eye eye;        // the camera in normalised space
   FeatureSet features;
   KernelVariant variant = KernelVariant::local;
-  Plan plan;         // the scene's plan and what this view adds to it
+  Plan plan;  // the scene's plan and what this view adds to it
 };
 // isa: the instruction set the kernels are dispatched to; render.h has a plan_view that knows it.
 ViewPlan plan_view(const CompiledScene& scene, const View& view, std::string_view isa);
