@@ -85,7 +85,7 @@ void Film::resolve(const TileRect& part, Image& image) const {
         float* const mean = image.rgb.data() + first;
         for (size_t i = 0; i < 3 * static_cast<size_t>(run.width()); ++i) {
           std::array<float, kSampleBlocks> sums{};
-          for (size_t block = 0; block < blocks; ++block) sums[block] = from[block][first + i];
+          for (size_t block = 0; block < size_t{blocks}; ++block) sums[block] = from[block][first + i];
           const float sum = ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
           mean[i] = sum / n;  // not a product with 1/n: that would be rounded twice
         }
