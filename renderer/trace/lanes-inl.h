@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen rays side by side in double: their places in a body's space and where their lines meet triangles, spheres,
-// boxes and planes, by the expressions of intersect.h to the last bit. Included once for every instruction set.
+// The rays of a packet side by side in double: their places in a body's space and where their lines meet triangles,
+// spheres, boxes and planes, by the expressions of intersect.h to the last bit. Included once for every instruction
+// set.
 #if defined(TILELIGHT_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TILELIGHT_LANES_INL_H
 #undef TILELIGHT_LANES_INL_H
@@ -8,13 +9,26 @@
 #define TILELIGHT_LANES_INL_H
 #endif
 
+#include <type_traits>
+
 #include "renderer/trace/walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
 namespace HWY_NAMESPACE {
 
-inline constexpr int kPacketRays = 16;
+inline constexpr int kPacketRays = 32;
+
+// A set of lanes, as bits.
+using LaneBits = std::conditional_t<(kPacketRays > 32), uint64_t, uint32_t>;
+HWY_INLINE constexpr LaneBits bit_of(size_t lane) { return LaneBits{1} << lane; }
+HWY_INLINE constexpr LaneBits first_lanes(size_t count) {
+  return count == 8 * sizeof(LaneBits) ? ~LaneBits{0} : bit_of(count) - 1;
+}
+HWY_INLINE size_t lowest_of(LaneBits lanes) {
+  if constexpr (sizeof(LaneBits) == 8) return hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes);
+  return hwy::Num0BitsBelowLS1Bit_Nonzero32(static_cast<uint32_t>(lanes));
+}
 
 using DoubleTag = hn::CappedTag<double, 8>;
 using DoubleVec = hn::Vec<DoubleTag>;
@@ -74,7 +88,7 @@ struct ExactHits {
 // lanes whose longest axis is that of the first.
 struct MeshLanes {
   uint32_t body = kNone;
-  uint32_t alike = 0;  // lanes of that axis, as bits
+  LaneBits alike = 0;  // lanes of that axis
   int kx = 0, ky = 1, kz = 2;
   LocalLanes local;
   alignas(64) double sx[kPacketRays], sy[kPacketRays], sz[kPacketRays];
@@ -98,7 +112,7 @@ struct MeshLanes {
       const auto is_alike = kz == 0 ? is_x : kz == 1 ? is_y : hn::Not(hn::Or(is_x, is_y));
       uint8_t bits[8] = {};
       hn::StoreMaskBits(tag, is_alike, bits);
-      alike |= static_cast<uint32_t>(bits[0]) << i;
+      alike |= static_cast<LaneBits>(bits[0]) << i;
       const auto inverse = hn::Div(hn::Set(tag, 1.0), hn::Load(tag, d[kz] + i));
       hn::Store(inverse, tag, sz + i);
       hn::Store(hn::Mul(hn::Load(tag, d[kx] + i), inverse), tag, sx + i);
@@ -106,14 +120,15 @@ struct MeshLanes {
     }
   }
 
-  // vertex(v, k, i): of the triangles of the lanes from i on, along kx, ky and kz. Returns the lanes that meet theirs,
-  // as bits.
+  // vertex(v, k, i): of the triangles of the lanes from i on, along kx, ky and kz. Returns those of the
+  // wanted lanes that meet theirs.
   template <class Vertex>
-  HWY_INLINE uint32_t meet(const Vertex& vertex, ExactHits& out) const {
+  HWY_INLINE LaneBits meet(LaneBits wanted, const Vertex& vertex, ExactHits& out) const {
     const DoubleTag tag;
     using V = DoubleVec;
-    uint32_t met = 0;
+    LaneBits met = 0;
     for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+      if (!(wanted >> i & first_lanes(hn::MaxLanes(tag)))) continue;
       const V ox = hn::Load(tag, local.moved[kx] + i), oy = hn::Load(tag, local.moved[ky] + i),
               oz = hn::Load(tag, local.moved[kz] + i);
       const V slope_x = hn::Load(tag, sx + i), slope_y = hn::Load(tag, sy + i);
@@ -130,7 +145,7 @@ struct MeshLanes {
       const auto is_out = hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), zero), hn::Gt(hn::Max(u, hn::Max(v, w)), zero));
       uint8_t bits[8] = {};
       hn::StoreMaskBits(tag, hn::AndNot(hn::Or(is_out, hn::Eq(det, zero)), hn::Eq(det, det)), bits);
-      met |= static_cast<uint32_t>(bits[0]) << i;
+      met |= static_cast<LaneBits>(bits[0]) << i;
       const V scale = hn::Div(hn::Set(tag, 1.0), det);
       const V along = hn::Add(hn::Add(hn::Mul(u, z[0]), hn::Mul(v, z[1])), hn::Mul(w, z[2]));
       const V t = hn::Mul(hn::Mul(along, hn::Load(tag, sz + i)), scale);
@@ -138,7 +153,7 @@ struct MeshLanes {
       hn::Store(hn::Mul(u, scale), tag, out.b0 + i);
       hn::Store(hn::Mul(v, scale), tag, out.b1 + i);
     }
-    return met;
+    return met & wanted;
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One lane of a packet by itself: a ray whose neighbours go elsewhere. It asks eight boxes or eight triangles at once,
-// by the same filter and with the same margins as a packet; its set-up and its final hit are the packet's, sixteen
+// by the same filter and with the same margins as a packet; its set-up and its final hit are the packet's, all
 // lanes side by side. Included once for every instruction set.
 #if defined(TILELIGHT_LONE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TILELIGHT_LONE_INL_H

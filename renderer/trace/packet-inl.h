@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen rays that go nearly the same way, walked through the scene's tree together. All that is decided here is
+// Rays that go nearly the same way, walked through the scene's tree together. All that is decided here is
 // decided in float with a margin above its rounding: a triangle that a ray meets beyond doubt, at a distance that no
 // other's can be confused with. What cannot be said so is decided in double at once (a hair beside an edge), or the ray
 // is left to the walk of single rays (two surfaces in one place, walk-inl.h). So the answers are those of that walk to
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tilelight {
 namespace HWY_NAMESPACE {
 
-// What sixteen rays know of their hits; t counts from the moved origins.
+// What rays know of their hits; t counts from the moved origins.
 struct LaneHits {
   alignas(64) float low[kPacketRays], high[kPacketRays];      // the best hit's t lies between
   alignas(64) float doubt[kPacketRays];                       // no other hit, and no doubtful one, lies before
@@ -33,8 +33,9 @@ template <bool kAnyHit>
 struct SureTriangles {
   static constexpr bool kInDouble = true;  // what is found is computed in double at the end
 
-  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays& given,
-                                   LaneHits& lane) {
+  template <size_t kCount>
+  static HWY_INLINE LaneBits visit(const TriangleBlock& block, int k, LaneBits lanes, const PacketRays& rays,
+                                   const GivenRays& given, LaneHits& lane) {
     const LaneTag tag;
     const LaneIntTag int_tag;
     using V = hn::Vec<LaneTag>;
@@ -44,8 +45,10 @@ struct SureTriangles {
       hn::Store(hn::IfThenElse(taken, body, hn::Load(int_tag, lane.body + i)), int_tag, lane.body + i);
       hn::Store(hn::IfThenElse(taken, prim, hn::Load(int_tag, lane.prim + i)), int_tag, lane.prim + i);
     };
-    uint32_t unsure = 0;
-    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    LaneBits unsure = 0;
+    for (size_t step = 0; step < kCount; step += hn::MaxLanes(tag)) {
+      const size_t i = rays.first + step;
+      if (!(lanes >> i & first_lanes(hn::MaxLanes(tag)))) continue;
       const V ox = hn::Load(tag, rays.origin[rays.kx] + i), oy = hn::Load(tag, rays.origin[rays.ky] + i),
               oz = hn::Load(tag, rays.origin[rays.kz] + i);
       const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
@@ -136,14 +139,16 @@ class PacketWalk {
   // Whether the filter's margins hold for these rays.
   bool is_sound() const { return rays_.is_near; }
 
-  // The lanes that are still undecided, as bits. REQUIRES: is_sound().
-  uint32_t run() {
-    const uint32_t all = (1u << input_.size()) - 1;
+  // The lanes that are still undecided. REQUIRES: is_sound().
+  LaneBits run() {
+    const LaneBits all = first_lanes(input_.size());
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
-    if (bound_lanes(rays_)) {
-      walk();
-    } else {
-      if (!scene_.tree.nodes.empty()) walk_apart(all, 0);
+    if (!scene_.tree.nodes.empty()) {
+      if (input_.size() > kPacketRays / 2) {
+        walk_range<kPacketRays>(0);
+      } else {
+        walk_range<kPacketRays / 2>(0);
+      }
     }
     return end_walk();
   }
@@ -177,15 +182,28 @@ class PacketWalk {
     }
   }
   HWY_INLINE void answer(std::span<uint8_t> is_blocked) const {
-    const uint32_t open = lanes_equal(lane_.body, kNone);
-    for (size_t i = 0; i < is_blocked.size(); ++i) is_blocked[i] = !(open >> i & 1);
+    const LaneBits open = lanes_equal(lane_.body, kNone);
+    for (size_t i = 0; i < is_blocked.size(); ++i) is_blocked[i] = !(open & bit_of(i));
   }
 
  private:
+  // As many together as go nearly the same way.
+  template <size_t kCount>
+  void walk_range(size_t first) {
+    if (bound_lanes<kCount>(first, rays_)) return walk<kCount>();
+    const size_t end = std::min(first + kCount, input_.size());
+    if constexpr (kCount > 16) {
+      walk_range<kCount / 2>(first);
+      if (first + kCount / 2 < end) walk_range<kCount / 2>(first + kCount / 2);
+    } else {
+      walk_apart(first_lanes(end) & ~first_lanes(first), 0);
+    }
+  }
+
   // After the walk: computes the hits, and tells which lanes are undecided.
-  uint32_t end_walk() {
+  LaneBits end_walk() {
     const LaneTag tag;
-    uint32_t undecided = 0;
+    LaneBits undecided = 0;
     for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
       const auto doubt = hn::Load(tag, lane_.doubt + i);
       undecided |=
@@ -193,7 +211,7 @@ class PacketWalk {
     }
     if (kAnyHit) return undecided;
     if (Triangles::kInDouble) {
-      const uint32_t all = (1u << input_.size()) - 1;
+      const LaneBits all = first_lanes(input_.size());
       finish(all & ~(undecided | lanes_equal(lane_.body, kNone)));
     } else {
       for (int i = 0; i < kPacketRays; ++i) t_[i] = rays_.shift[i] + lane_.high[i];
@@ -201,24 +219,25 @@ class PacketWalk {
     return undecided;
   }
 
+  template <size_t kCount>
   void walk() {
-    constexpr size_t kFewLanes = kAnyHit ? 4 : 2;  // walked apart
+    constexpr size_t kFewLanes = kAnyHit ? 6 : 3;  // walked apart
     struct Entry {
-      uint32_t node, lanes;
+      uint32_t node;
       float t;
+      LaneBits lanes;
     };
     const TriangleTree& tree = scene_.tree;
-    if (tree.nodes.empty()) return;
     Entry stack[kStackSize];
     int top = 1;
-    stack[0] = {0, 0xFFFFu, rays_.t_least};
-    float t_most = greatest_of(lane_.high);
+    stack[0] = {0, rays_.t_least, first_lanes(kCount) << rays_.first};
+    float t_most = greatest_of<kCount>(lane_.high + rays_.first);
     while (top > 0) {
       const Entry e = stack[--top];
       if (e.t > t_most) continue;
       if (hwy::PopCount(e.lanes) <= kFewLanes) {
         walk_apart(e.lanes, e.node);
-        t_most = greatest_of(lane_.high);
+        t_most = greatest_of<kCount>(lane_.high + rays_.first);
         continue;
       }
       if (e.node & WideBvh::kLeafBit) {
@@ -226,9 +245,9 @@ class PacketWalk {
         if (leaf & TriangleTree::kBodyBit) {
           visit_body(leaf & ~TriangleTree::kBodyBit, e.lanes);
         } else {
-          visit_block(tree.blocks[leaf]);
+          visit_block<kCount>(tree.blocks[leaf], e.lanes);
         }
-        t_most = greatest_of(lane_.high);
+        t_most = greatest_of<kCount>(lane_.high + rays_.first);
         continue;
       }
       const WideBvh::Node& node = tree.nodes[e.node];
@@ -238,9 +257,9 @@ class PacketWalk {
       const int first = top;
       for (uint32_t boxes = boxes_met(rays_, plane, t_most, entry); boxes != 0; boxes &= boxes - 1) {
         const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(boxes);
-        const uint32_t lanes = lanes_met(rays_, node, c, lane_.high);
+        const LaneBits lanes = lanes_met<kCount>(rays_, node, c, lane_.high);
         if (lanes == 0) continue;
-        const Entry met{node.child[c], lanes, entry[c]};
+        const Entry met{node.child[c], entry[c], lanes};
         prefetch(tree, met.node);
         int place = top++;
         for (; place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
@@ -251,18 +270,18 @@ class PacketWalk {
 
   // Each lane by itself from a node on, a step of each in turn: while one waits for memory or for its branches, the
   // others go on.
-  void walk_apart(uint32_t lanes, uint32_t root) {
+  void walk_apart(LaneBits lanes, uint32_t root) {
     const TriangleTree& tree = scene_.tree;
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-      const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
-      if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, static_cast<size_t>(lane));
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+      const size_t lane = lowest_of(rest);
+      if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, lane);
       lone_[lane].push(root, lone_[lane].t_min);
     }
     lone_set_ |= lanes;
     while (lanes != 0) {
-      for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const int lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(rest);
-        if (!step(tree, lone_[lane], static_cast<size_t>(lane))) lanes &= ~(1u << lane);
+      for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = lowest_of(rest);
+        if (!step(tree, lone_[lane], lane)) lanes &= ~bit_of(lane);
       }
     }
   }
@@ -276,7 +295,7 @@ class PacketWalk {
     if (next & WideBvh::kLeafBit) {
       const uint32_t leaf = next & ~WideBvh::kLeafBit;
       if (leaf & TriangleTree::kBodyBit) {
-        visit_body(leaf & ~TriangleTree::kBodyBit, 1u << lane);
+        visit_body(leaf & ~TriangleTree::kBodyBit, bit_of(lane));
       } else {
         visit_block(tree.blocks[leaf], ray, lane);
       }
@@ -295,7 +314,7 @@ class PacketWalk {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
       if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
         continue;
-      if (kAnyHit) return block_lane(static_cast<int>(lane), block.body[k]);
+      if (kAnyHit) return block_lane(lane, block.body[k]);
       if (sifted.high[k] < lane_.high[lane]) {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], lane_.low[lane]);
         lane_.low[lane] = sifted.low[k], lane_.high[lane] = sifted.high[k];
@@ -308,7 +327,7 @@ class PacketWalk {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
       if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
         continue;
-      decide(block.body[k], block.prim[k], 1u << lane);
+      decide(block.body[k], block.prim[k], bit_of(lane));
     }
   }
 
@@ -323,20 +342,20 @@ class PacketWalk {
   }
 
   // The hits of these lanes: with the triangles that were found; those with other bodies are known.
-  void finish(uint32_t lanes) {
+  void finish(LaneBits lanes) {
     while (lanes != 0) {
-      const uint32_t index = lane_.body[hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes)];
-      const uint32_t same = lanes & lanes_equal(lane_.body, index);
+      const uint32_t index = lane_.body[lowest_of(lanes)];
+      const LaneBits same = lanes & lanes_equal(lane_.body, index);
       lanes &= ~same;
       if (scene_.bodies[index].kind == BodyKind::mesh) finish_with(index, same);
     }
   }
-  void finish_with(uint32_t index, uint32_t lanes) {
+  void finish_with(uint32_t index, LaneBits lanes) {
     const DoubleTag tag;
     constexpr size_t kStep = hn::MaxLanes(tag), kParts = kPacketRays / kStep;
     const CompiledMesh& mesh = *scene_.bodies[index].mesh;
     const MeshLanes& in = inside(index);
-    const auto part_of = [&](uint32_t bits, size_t part) HWY_ATTR {
+    const auto part_of = [&](LaneBits bits, size_t part) HWY_ATTR {
       const uint8_t byte[8] = {static_cast<uint8_t>(bits >> part * kStep)};
       return hn::LoadMaskBits(tag, byte);
     };
@@ -344,9 +363,9 @@ class PacketWalk {
     for (auto& v : vertex)
       for (auto& k : v)
         for (auto& part : k) part = hn::Zero(tag);
-    for (uint32_t rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
-      const uint32_t prim = lane_.prim[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
-      const uint32_t alike = rest & lanes_equal(lane_.prim, prim);
+    for (LaneBits rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
+      const uint32_t prim = lane_.prim[lowest_of(rest)];
+      const LaneBits alike = rest & lanes_equal(lane_.prim, prim);
       rest &= ~alike;
       const auto& triangle = mesh.triangles[prim];
       for (size_t v = 0; v < 3; ++v) {
@@ -359,7 +378,8 @@ class PacketWalk {
       }
     }
     ExactHits hits;
-    in.meet([&](int v, int k, size_t i) HWY_ATTR { return vertex[v][k][i / kStep]; }, hits);
+    (void)in.meet(
+        ~LaneBits{0}, [&](int v, int k, size_t i) HWY_ATTR { return vertex[v][k][i / kStep]; }, hits);
     for (size_t part = 0; part < kParts; ++part) {
       const size_t i = part * kStep;
       const auto mask = part_of(lanes & in.alike, part);
@@ -369,8 +389,8 @@ class PacketWalk {
       keep(hits.t, t_), keep(hits.b0, b0_), keep(hits.b1, b1_);
     }
     for (lanes &= ~in.alike; lanes != 0; lanes &= lanes - 1) {
-      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
-      const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
+      const size_t i = lowest_of(lanes);
+      const Walk<kAnyHit> walk(scene_, input_[i]);
       Hit hit;
       (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
       t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
@@ -378,10 +398,10 @@ class PacketWalk {
   }
 
   // A hit that was computed in double, at t: the best of its lane if it is nearer beyond doubt.
-  void offer(int i, uint32_t body, uint32_t prim, double t, double b0, double b1) {
+  void offer(size_t i, uint32_t body, uint32_t prim, double t, double b0, double b1) {
     const auto at = static_cast<float>(t - rays_.shift[i]);
     if (kAnyHit) {
-      if (t < input_[static_cast<size_t>(i)].t_max) block_lane(i, body);
+      if (t < input_[i].t_max) block_lane(i, body);
       return;
     }
     const float off = rays_.tie[i] + 0x1p-22f * (1.0f + std::abs(at));
@@ -394,17 +414,17 @@ class PacketWalk {
       lane_.doubt[i] = std::min(lane_.doubt[i], at - off);
     }
   }
-  void block_lane(int lane, uint32_t body) {
+  void block_lane(size_t lane, uint32_t body) {
     lane_.body[lane] = body;
     lane_.high[lane] = -INFINITY;
   }
 
-  void visit_body(uint32_t index, uint32_t lanes) {
+  void visit_body(uint32_t index, LaneBits lanes) {
     if (scene_.bodies[index].kind != BodyKind::mesh) return visit_solid(index, lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
-      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const size_t i = lowest_of(lanes);
       if (lane_.high[i] == -INFINITY) continue;
-      const Hit hit = Walk<kAnyHit>(scene_, input_[static_cast<size_t>(i)]).run_body(index);
+      const Hit hit = Walk<kAnyHit>(scene_, input_[i]).run_body(index);
       if (!hit.is_hit()) continue;
       if (kAnyHit) {
         block_lane(i, index);
@@ -414,7 +434,7 @@ class PacketWalk {
     }
   }
 
-  void visit_solid(uint32_t index, uint32_t lanes) {
+  void visit_solid(uint32_t index, LaneBits lanes) {
     const CompiledBody& body = scene_.bodies[index];
     LocalLanes local;
     LaneSpans spans;
@@ -423,7 +443,7 @@ class PacketWalk {
     if (body.kind == BodyKind::plane) plane_spans(local, spans);
     if (body.kind == BodyKind::box) box_spans(body.half, local, spans);
     for (; lanes != 0; lanes &= lanes - 1) {
-      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const size_t i = lowest_of(lanes);
       const double near = spans.near[i], far = spans.far[i], reach = given_.reach[i];
       double t = near;
       uint32_t prim = spans.near_prim[i];
@@ -435,12 +455,13 @@ class PacketWalk {
         t = far, prim = spans.far_prim[i];
         is_told = far > reach;
       }
-      if (!is_told && !Walk<kAnyHit>(scene_, input_[static_cast<size_t>(i)]).meet_solid(index, t, prim)) continue;
+      if (!is_told && !Walk<kAnyHit>(scene_, input_[i]).meet_solid(index, t, prim)) continue;
       offer(i, index, prim, t, 0.0, 0.0);
     }
   }
 
-  HWY_INLINE void visit_block(const TriangleBlock& block) {
+  template <size_t kCount>
+  HWY_INLINE void visit_block(const TriangleBlock& block, LaneBits lanes) {
     HWY_ALIGN float entry[8];
     const auto plane = [&](int side, int axis, size_t i) HWY_ATTR {
       const FloatTag tag;
@@ -449,28 +470,28 @@ class PacketWalk {
       return side ? hn::Add(hn::Max(a, hn::Max(b, c)), hn::Set(tag, WideBvh::kWiden))
                   : hn::Sub(hn::Min(a, hn::Min(b, c)), hn::Set(tag, WideBvh::kWiden));
     };
-    const float t_most = greatest_of(lane_.high);
+    const float t_most = greatest_of<kCount>(lane_.high + rays_.first);
     for (uint32_t met = boxes_met(rays_, plane, t_most, entry); met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      const uint32_t unsure = Triangles::visit(block, k, rays_, given_, lane_);
+      const LaneBits unsure = Triangles::template visit<kCount>(block, k, lanes, rays_, given_, lane_);
       if (unsure != 0) decide(block.body[k], block.prim[k], unsure);
     }
   }
 
   // In double, which rays meet a triangle, and where.
-  void decide(uint32_t body, uint32_t prim, uint32_t lanes) {
+  void decide(uint32_t body, uint32_t prim, LaneBits lanes) {
     const CompiledMesh& mesh = *scene_.bodies[body].mesh;
     const MeshLanes& in = inside(body);
     const auto& triangle = mesh.triangles[prim];
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
     ExactHits hits;
-    const uint32_t met =
-        in.meet([&](int v, int k, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][in.axis(k)]); }, hits);
+    const LaneBits met = in.meet(
+        lanes, [&](int v, int k, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][in.axis(k)]); }, hits);
     for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
-      const int i = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const size_t i = lowest_of(lanes);
       Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
       if (!(in.alike >> i & 1) || !(hit.t > given_.reach[i])) {
-        const Walk<kAnyHit> walk(scene_, input_[static_cast<size_t>(i)]);
+        const Walk<kAnyHit> walk(scene_, input_[i]);
         if (!walk.meet_triangle(walk.inside(body), prim, hit)) continue;
       }
       offer(i, body, prim, hit.t, hit.b0, hit.b1);
@@ -485,7 +506,7 @@ class PacketWalk {
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
   LoneRay lone_[kPacketRays];
-  uint32_t lone_set_ = 0;  // the lanes whose lone_ is set, as bits
+  LaneBits lone_set_ = 0;  // the lanes whose lone_ is set
   int latest_ = 0;         // which of these was asked for last
 };
 
@@ -507,7 +528,7 @@ HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const Bounde
     const auto some = rest.first(std::min<size_t>(kPacketRays, rest.size()));
     const auto after = rest.subspan(some.size());
     prefetch_rays(after.first(std::min<size_t>(kPacketRays, after.size())));
-    uint32_t undecided = ~0u;
+    LaneBits undecided = ~LaneBits{0};
     if (some.size() >= kFewRays) {
       packet.take(some);
       if (packet.is_sound()) {
@@ -515,8 +536,8 @@ HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const Bounde
         packet.answer(answers.subspan(first, some.size()));
       }
     }
-    for (undecided &= (1u << some.size()) - 1; undecided != 0; undecided &= undecided - 1)
-      ask(first + hwy::Num0BitsBelowLS1Bit_Nonzero32(undecided));
+    for (undecided &= first_lanes(some.size()); undecided != 0; undecided &= undecided - 1)
+      ask(first + lowest_of(undecided));
   }
 }
 

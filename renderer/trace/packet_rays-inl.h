@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen rays side by side in float, as the filter of packets sees them, and which boxes they meet: all together, by
-// the intervals of their origins and directions, and then by lane. Included once for every instruction set.
+// The rays of a packet side by side in float, as the filter of packets sees them, and which boxes they meet: all
+// together, by the intervals of their origins and directions, and then by lane. Included once for every instruction
+// set.
 #if defined(TILELIGHT_PACKET_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TILELIGHT_PACKET_RAYS_INL_H
 #undef TILELIGHT_PACKET_RAYS_INL_H
@@ -20,17 +21,17 @@ namespace HWY_NAMESPACE {
 using LaneTag = hn::CappedTag<float, kPacketRays>;
 using LaneIntTag = hn::RebindToUnsigned<LaneTag>;
 
-// All lanes in one register's width, two by two through `merge`.
-template <class Merge>
+// kCount lanes in one register's width, two by two through `merge`.
+template <size_t kCount, class Merge>
 HWY_INLINE hn::Vec<LaneTag> merged_lanes(const float* lanes, const Merge& merge) {
   const LaneTag tag;
   auto all = hn::Load(tag, lanes);
-  for (size_t i = hn::MaxLanes(tag); i < kPacketRays; i += hn::MaxLanes(tag))
-    all = merge(all, hn::Load(tag, lanes + i));
+  for (size_t i = hn::MaxLanes(tag); i < kCount; i += hn::MaxLanes(tag)) all = merge(all, hn::Load(tag, lanes + i));
   return all;
 }
+template <size_t kCount>
 HWY_INLINE float greatest_of(const float* lanes) {
-  const auto all = merged_lanes(lanes, [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); });
+  const auto all = merged_lanes<kCount>(lanes, [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); });
   return hn::GetLane(hn::MaxOfLanes(LaneTag(), all));
 }
 
@@ -113,7 +114,8 @@ struct PacketRays {
   alignas(64) float t_min[kPacketRays], tie[kPacketRays];  // tie: how far apart hits are that may be in one place
   alignas(64) float slope[2][kPacketRays];                 // of the sheared planes, along kx and ky
   alignas(64) double shift[kPacketRays];
-  // Over all lanes, by axis. is_mixed: some directions go up and some down.
+  size_t first = 0;  // the lanes from here on walk together
+  // Over these, by axis. is_mixed: some directions go up and some down.
   // slope: 1 / |direction|. The fourth numbers fill the registers.
   alignas(16) float origin_low[4], origin_high[4], slope_low[4], slope_high[4], direction_most[4];
   bool is_mixed[3];
@@ -196,16 +198,16 @@ HWY_INLINE void make_lanes(const GivenRays& given, PacketRays& out, float* t_sur
 }
 
 template <class Mask>
-HWY_INLINE uint32_t lane_bits(Mask mask) {
+HWY_INLINE LaneBits lane_bits(Mask mask) {
   uint8_t bits[8] = {};
   hn::StoreMaskBits(LaneTag(), mask, bits);
-  return bits[0] | static_cast<uint32_t>(bits[1]) << 8;
+  return bits[0] | static_cast<LaneBits>(bits[1]) << 8;
 }
-// The lanes of a row that are `what`, as bits.
-HWY_INLINE uint32_t lanes_equal(const uint32_t* row, uint32_t what) {
+// The lanes of a row that are `what`.
+HWY_INLINE LaneBits lanes_equal(const uint32_t* row, uint32_t what) {
   const LaneTag tag;
   const LaneIntTag int_tag;
-  uint32_t lanes = 0;
+  LaneBits lanes = 0;
   for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
     const auto is_equal = hn::Eq(hn::Load(int_tag, row + i), hn::Set(int_tag, what));
     lanes |= lane_bits(hn::RebindMask(tag, is_equal)) << i;
@@ -215,17 +217,17 @@ HWY_INLINE uint32_t lanes_equal(const uint32_t* row, uint32_t what) {
 
 using FourTag = hn::CappedTag<float, 4>;
 // Of each of four rows of lanes, through `merge`, into out[0..3]: four at once take half the steps of one by one.
-template <class Merge>
+template <size_t kCount, class Merge>
 HWY_INLINE void merge_four(const float* a, const float* b, const float* c, const float* d, const Merge& merge,
                            float* out) {
 #if HWY_TARGET == HWY_SCALAR
   const float* rows[4] = {a, b, c, d};
-  for (size_t k = 0; k < 4; ++k) hn::Store(merged_lanes(rows[k], merge), FourTag(), out + k);
+  for (size_t k = 0; k < 4; ++k) hn::Store(merged_lanes<kCount>(rows[k], merge), FourTag(), out + k);
 #else
   const LaneTag tag;
   const hn::RepartitionToWide<LaneIntTag> pairs;
   const auto two = [&](const float* p, const float* q) HWY_ATTR {
-    const auto v = merged_lanes(p, merge), w = merged_lanes(q, merge);
+    const auto v = merged_lanes<kCount>(p, merge), w = merged_lanes<kCount>(q, merge);
     return hn::BitCast(pairs, merge(hn::InterleaveLower(tag, v, w), hn::InterleaveUpper(tag, v, w)));
   };
   const auto v = two(a, b), w = two(c, d);
@@ -243,21 +245,25 @@ HWY_INLINE void merge_four(const float* a, const float* b, const float* c, const
 #endif
 }
 
-// What bounds all lanes. False: the rays go too many ways to be walked together.
-HWY_INLINE bool bound_lanes(PacketRays& out) {
+// What bounds kCount lanes. False: they go too many ways to be walked together.
+template <size_t kCount>
+HWY_INLINE bool bound_lanes(size_t first, PacketRays& out) {
+  out.first = first;
   const LaneTag tag;
   const FourTag four;
   const auto lesser = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
   const auto greater = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
   const auto& d = out.direction;
   alignas(16) float d_low[4], d_high[4], weak[4];
-  merge_four(d[0], d[1], d[2], d[2], lesser, d_low);
-  merge_four(d[0], d[1], d[2], d[2], greater, d_high);
+  merge_four<kCount>(d[0] + first, d[1] + first, d[2] + first, d[2] + first, lesser, d_low);
+  merge_four<kCount>(d[0] + first, d[1] + first, d[2] + first, d[2] + first, greater, d_high);
   const float wx = d_high[0] - d_low[0], wy = d_high[1] - d_low[1], wz = d_high[2] - d_low[2];
   constexpr float kWidest = 0.45f;  // about 25 degrees
   if (!(wx * wx + wy * wy + wz * wz < kWidest * kWidest)) return false;
-  merge_four(out.origin[0], out.origin[1], out.origin[2], out.t_min, lesser, out.origin_low);
-  merge_four(out.origin[0], out.origin[1], out.origin[2], out.origin[2], greater, out.origin_high);
+  merge_four<kCount>(out.origin[0] + first, out.origin[1] + first, out.origin[2] + first, out.t_min + first, lesser,
+                     out.origin_low);
+  merge_four<kCount>(out.origin[0] + first, out.origin[1] + first, out.origin[2] + first, out.origin[2] + first,
+                     greater, out.origin_high);
   out.t_least = out.origin_low[3];
   for (size_t i = 0; i < 4; i += hn::MaxLanes(four)) {
     const auto low = hn::Load(four, d_low + i), high = hn::Load(four, d_high + i), tiny = hn::Set(four, kTinySlope);
@@ -278,7 +284,7 @@ HWY_INLINE bool bound_lanes(PacketRays& out) {
   const float most = weak[out.kz];
   if (!(most >= 0.5f)) return false;
   out.kx = out.kz == 2 ? 0 : out.kz + 1, out.ky = out.kz == 0 ? 2 : out.kz - 1;
-  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+  for (size_t i = first; i < first + kCount; i += hn::MaxLanes(tag)) {
     const auto inverse = hn::Load(tag, out.inverse[out.kz] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.ky] + i), inverse), tag, out.slope[1] + i);
@@ -327,11 +333,13 @@ HWY_INLINE uint32_t boxes_met(const PacketRays& rays, const Plane& plane, float 
   return mask;
 }
 
-// The lanes that meet the c-th box of a node, as bits.
-HWY_INLINE uint32_t lanes_met(const PacketRays& rays, const WideBvh::Node& node, int c, const float* t_max) {
+// Of kCount lanes those that meet the c-th box of a node.
+template <size_t kCount>
+HWY_INLINE LaneBits lanes_met(const PacketRays& rays, const WideBvh::Node& node, int c, const float* t_max) {
   const LaneTag tag;
-  uint32_t lanes = 0;
-  for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+  LaneBits lanes = 0;
+  for (size_t k = 0; k < kCount; k += hn::MaxLanes(tag)) {
+    const size_t i = rays.first + k;
     auto near = hn::Load(tag, rays.t_min + i), far = hn::Load(tag, t_max + i);
     for (int axis = 0; axis < 3; ++axis) {
       const auto origin = hn::Load(tag, rays.origin[axis] + i), inverse = hn::Load(tag, rays.inverse[axis] + i);

@@ -20,8 +20,9 @@ template <bool kAnyHit>
 struct NaiveTriangles {
   static constexpr bool kInDouble = false;
 
-  static HWY_INLINE uint32_t visit(const TriangleBlock& block, int k, const PacketRays& rays, const GivenRays&,
-                                   LaneHits& lane) {
+  template <size_t kCount>
+  static HWY_INLINE LaneBits visit(const TriangleBlock& block, int k, LaneBits lanes, const PacketRays& rays,
+                                   const GivenRays&, LaneHits& lane) {
     constexpr float kEpsilon = 1e-4f;
     const LaneTag tag;
     const LaneIntTag int_tag;
@@ -29,7 +30,9 @@ struct NaiveTriangles {
     const auto cross = [](V p, V q, V r, V s) HWY_ATTR { return hn::MulSub(p, q, hn::Mul(r, s)); };
     const auto dot = [](V px, V py, V pz, V qx, V qy, V qz)
                          HWY_ATTR { return hn::MulAdd(px, qx, hn::MulAdd(py, qy, hn::Mul(pz, qz))); };
-    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
+    for (size_t step = 0; step < kCount; step += hn::MaxLanes(tag)) {
+      const size_t i = rays.first + step;
+      if (!(lanes >> i & first_lanes(hn::MaxLanes(tag)))) continue;
       const auto corner = [&](int vertex, int axis) HWY_ATTR { return hn::Set(tag, block.vertex[vertex][axis][k]); };
       const V dx = hn::Load(tag, rays.direction[0] + i), dy = hn::Load(tag, rays.direction[1] + i),
               dz = hn::Load(tag, rays.direction[2] + i);
