@@ -120,40 +120,45 @@ struct MeshLanes {
     }
   }
 
-  // vertex(v, k, i): of the triangles of the lanes from i on, along kx, ky and kz. Returns those of the
-  // wanted lanes that meet theirs.
+  // The lanes of a register from i on that meet their triangles; vertex(v, k): of these, along kx, ky and kz.
   template <class Vertex>
-  HWY_INLINE LaneBits meet(LaneBits wanted, const Vertex& vertex, ExactHits& out) const {
+  HWY_INLINE LaneBits meet_some(size_t i, const Vertex& vertex, ExactHits& out) const {
     const DoubleTag tag;
     using V = DoubleVec;
-    LaneBits met = 0;
-    for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
-      if (!(wanted >> i & first_lanes(hn::MaxLanes(tag)))) continue;
-      const V ox = hn::Load(tag, local.moved[kx] + i), oy = hn::Load(tag, local.moved[ky] + i),
-              oz = hn::Load(tag, local.moved[kz] + i);
-      const V slope_x = hn::Load(tag, sx + i), slope_y = hn::Load(tag, sy + i);
-      V x[3], y[3], z[3];
-      for (int v = 0; v < 3; ++v) {
-        z[v] = hn::Sub(vertex(v, 2, i), oz);
-        x[v] = hn::Sub(hn::Sub(vertex(v, 0, i), ox), hn::Mul(slope_x, z[v]));
-        y[v] = hn::Sub(hn::Sub(vertex(v, 1, i), oy), hn::Mul(slope_y, z[v]));
-      }
-      const V u = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])),
-              v = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),
-              w = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
-      const V zero = hn::Zero(tag), det = hn::Add(hn::Add(u, v), w);
-      const auto is_out = hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), zero), hn::Gt(hn::Max(u, hn::Max(v, w)), zero));
-      uint8_t bits[8] = {};
-      hn::StoreMaskBits(tag, hn::AndNot(hn::Or(is_out, hn::Eq(det, zero)), hn::Eq(det, det)), bits);
-      met |= static_cast<LaneBits>(bits[0]) << i;
-      const V scale = hn::Div(hn::Set(tag, 1.0), det);
-      const V along = hn::Add(hn::Add(hn::Mul(u, z[0]), hn::Mul(v, z[1])), hn::Mul(w, z[2]));
-      const V t = hn::Mul(hn::Mul(along, hn::Load(tag, sz + i)), scale);
-      hn::Store(hn::Add(hn::Load(tag, local.shift + i), t), tag, out.t + i);
-      hn::Store(hn::Mul(u, scale), tag, out.b0 + i);
-      hn::Store(hn::Mul(v, scale), tag, out.b1 + i);
+    const V ox = hn::Load(tag, local.moved[kx] + i), oy = hn::Load(tag, local.moved[ky] + i),
+            oz = hn::Load(tag, local.moved[kz] + i);
+    const V slope_x = hn::Load(tag, sx + i), slope_y = hn::Load(tag, sy + i);
+    V x[3], y[3], z[3];
+    for (int v = 0; v < 3; ++v) {
+      z[v] = hn::Sub(vertex(v, 2), oz);
+      x[v] = hn::Sub(hn::Sub(vertex(v, 0), ox), hn::Mul(slope_x, z[v]));
+      y[v] = hn::Sub(hn::Sub(vertex(v, 1), oy), hn::Mul(slope_y, z[v]));
     }
-    return met & wanted;
+    const V u = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])),
+            v = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),
+            w = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
+    const V zero = hn::Zero(tag), det = hn::Add(hn::Add(u, v), w);
+    const auto is_out = hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), zero), hn::Gt(hn::Max(u, hn::Max(v, w)), zero));
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, hn::AndNot(hn::Or(is_out, hn::Eq(det, zero)), hn::Eq(det, det)), bits);
+    const V scale = hn::Div(hn::Set(tag, 1.0), det);
+    const V along = hn::Add(hn::Add(hn::Mul(u, z[0]), hn::Mul(v, z[1])), hn::Mul(w, z[2]));
+    const V t = hn::Mul(hn::Mul(along, hn::Load(tag, sz + i)), scale);
+    hn::Store(hn::Add(hn::Load(tag, local.shift + i), t), tag, out.t + i);
+    hn::Store(hn::Mul(u, scale), tag, out.b0 + i);
+    hn::Store(hn::Mul(v, scale), tag, out.b1 + i);
+    return static_cast<LaneBits>(bits[0]) << i;
+  }
+
+  // Which of these lanes meet a triangle.
+  LaneBits meet(LaneBits lanes, const Vec3 (&triangle)[3], ExactHits& out) const {
+    constexpr size_t kStep = hn::MaxLanes(DoubleTag());
+    const auto vertex = [&](int v, int k) HWY_ATTR { return hn::Set(DoubleTag(), triangle[v][axis(k)]); };
+    LaneBits met = 0;
+    for (size_t i = 0; i < kPacketRays; i += kStep) {
+      if (lanes >> i & first_lanes(kStep)) met |= meet_some(i, vertex, out);
+    }
+    return met & lanes;
   }
 };
 

@@ -351,42 +351,12 @@ class PacketWalk {
     }
   }
   void finish_with(uint32_t index, LaneBits lanes) {
-    const DoubleTag tag;
-    constexpr size_t kStep = hn::MaxLanes(tag), kParts = kPacketRays / kStep;
     const CompiledMesh& mesh = *scene_.bodies[index].mesh;
     const MeshLanes& in = inside(index);
-    const auto part_of = [&](LaneBits bits, size_t part) HWY_ATTR {
-      const uint8_t byte[8] = {static_cast<uint8_t>(bits >> part * kStep)};
-      return hn::LoadMaskBits(tag, byte);
-    };
-    DoubleVec vertex[3][3][kParts];
-    for (auto& v : vertex)
-      for (auto& k : v)
-        for (auto& part : k) part = hn::Zero(tag);
-    for (LaneBits rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
-      const uint32_t prim = lane_.prim[lowest_of(rest)];
-      const LaneBits alike = rest & lanes_equal(lane_.prim, prim);
-      rest &= ~alike;
-      const auto& triangle = mesh.triangles[prim];
-      for (size_t v = 0; v < 3; ++v) {
-        const Vec3& p = mesh.positions[triangle[v]];
-        for (size_t part = 0; part < kParts; ++part) {
-          const auto mask = part_of(alike, part);
-          for (int k = 0; k < 3; ++k)
-            vertex[v][k][part] = hn::IfThenElse(mask, hn::Set(tag, p[in.axis(k)]), vertex[v][k][part]);
-        }
-      }
-    }
-    ExactHits hits;
-    (void)in.meet(
-        ~LaneBits{0}, [&](int v, int k, size_t i) HWY_ATTR { return vertex[v][k][i / kStep]; }, hits);
-    for (size_t part = 0; part < kParts; ++part) {
-      const size_t i = part * kStep;
-      const auto mask = part_of(lanes & in.alike, part);
-      const auto keep = [&](const double* from, double* to) HWY_ATTR {
-        hn::Store(hn::IfThenElse(mask, hn::Load(tag, from + i), hn::Load(tag, to + i)), tag, to + i);
-      };
-      keep(hits.t, t_), keep(hits.b0, b0_), keep(hits.b1, b1_);
+    constexpr size_t kStep = hn::MaxLanes(LaneTag());
+    for (size_t i = 0; i < kPacketRays; i += kStep) {
+      const LaneBits here = lanes & in.alike & first_lanes(kStep) << i;
+      if (here != 0) finish_some(mesh, in, here, i);
     }
     for (lanes &= ~in.alike; lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
@@ -394,6 +364,49 @@ class PacketWalk {
       Hit hit;
       (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
       t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
+    }
+  }
+  // Lanes of the register from `first` on.
+  HWY_INLINE void finish_some(const CompiledMesh& mesh, const MeshLanes& in, LaneBits lanes, size_t first) {
+    const DoubleTag tag;
+    const hn::RebindToUnsigned<DoubleTag> bits_tag;
+    const hn::Rebind<uint32_t, DoubleTag> int_tag;
+    constexpr size_t kStep = hn::MaxLanes(tag);
+    DoubleVec vertex[3][3][kHalves];
+    hn::Vec<decltype(bits_tag)> prims[kHalves];
+    for (size_t h = 0; h < kHalves; ++h) {
+      prims[h] = hn::PromoteTo(bits_tag, hn::Load(int_tag, lane_.prim + first + h * kStep));
+      for (auto& v : vertex)
+        for (auto& k : v) k[h] = hn::Zero(tag);
+    }
+    for (LaneBits rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
+      const uint32_t prim = lane_.prim[lowest_of(rest)];
+      const auto& triangle = mesh.triangles[prim];
+      const double* corner[3] = {&mesh.positions[triangle[0]].x, &mesh.positions[triangle[1]].x,
+                                 &mesh.positions[triangle[2]].x};
+      for (size_t h = 0; h < kHalves; ++h) {
+        const auto is_same = hn::Eq(prims[h], hn::Set(bits_tag, prim));
+        const auto mask = hn::RebindMask(tag, is_same);
+        for (size_t v = 0; v < 3; ++v) {
+          for (int k = 0; k < 3; ++k)
+            vertex[v][k][h] = hn::IfThenElse(mask, hn::Set(tag, corner[v][in.axis(k)]), vertex[v][k][h]);
+        }
+        uint8_t bits[8] = {};
+        hn::StoreMaskBits(bits_tag, is_same, bits);
+        rest &= ~(static_cast<LaneBits>(bits[0]) << (first + h * kStep));
+      }
+    }
+    ExactHits hits;
+    for (size_t h = 0; h < kHalves; ++h) {
+      const size_t i = first + h * kStep;
+      (void)in.meet_some(
+          i, [&](int v, int k) HWY_ATTR { return vertex[v][k][h]; }, hits);
+      const uint8_t bits[8] = {static_cast<uint8_t>(lanes >> i)};
+      const auto mask = hn::LoadMaskBits(tag, bits);
+      const auto keep = [&](const double* from, double* to) HWY_ATTR {
+        hn::Store(hn::IfThenElse(mask, hn::Load(tag, from + i), hn::Load(tag, to + i)), tag, to + i);
+      };
+      keep(hits.t, t_), keep(hits.b0, b0_), keep(hits.b1, b1_);
     }
   }
 
@@ -485,8 +498,7 @@ class PacketWalk {
     const auto& triangle = mesh.triangles[prim];
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
     ExactHits hits;
-    const LaneBits met = in.meet(
-        lanes, [&](int v, int k, size_t) HWY_ATTR { return hn::Set(DoubleTag(), vertex[v][in.axis(k)]); }, hits);
+    const LaneBits met = in.meet(lanes, vertex, hits);
     for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
       Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
