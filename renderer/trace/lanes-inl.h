@@ -84,13 +84,14 @@ struct ExactHits {
   alignas(64) double t[kPacketRays], b0[kPacketRays], b1[kPacketRays];
 };
 
-// The rays in the space of a mesh, sheared for the exact test of triangles: intersect_triangle to the last bit, on the
-// lanes whose longest axis is that of the first.
+// The rays in the space of a mesh, sheared for the exact test of triangles: intersect_triangle to the last bit.
 struct MeshLanes {
   uint32_t body = kNone;
-  LaneBits alike = 0;  // lanes of that axis
-  int kx = 0, ky = 1, kz = 2;
+  bool is_mixed = false;        // not all lanes have the same longest axis
+  int kx = 0, ky = 1, kz = 2;   // the axes of all lanes; of mixed ones, those of space
+  LaneBits by_x = 0, by_y = 0;  // lanes whose longest axis is this
   LocalLanes local;
+  alignas(64) double moved[3][kPacketRays];  // along each lane's kx, ky and kz
   alignas(64) double sx[kPacketRays], sy[kPacketRays], sz[kPacketRays];
 
   int axis(int k) const { return k == 0 ? kx : k == 1 ? ky : kz; }
@@ -101,38 +102,60 @@ struct MeshLanes {
     transform_lanes(of.local_from_world, origin, direction, local);
     move_origins(local);
     const auto& d = local.direction;
-    kz = Shear::axis_of(std::abs(d[0][0]), std::abs(d[1][0]), std::abs(d[2][0]));
-    kx = (kz + 1) % 3, ky = (kz + 2) % 3;
     const DoubleTag tag;
-    alike = 0;
+    by_x = by_y = 0;
     for (size_t i = 0; i < kPacketRays; i += hn::MaxLanes(tag)) {
-      const auto x = hn::Load(tag, d[0] + i), y = hn::Load(tag, d[1] + i), z = hn::Load(tag, d[2] + i);
+      const auto load = [&](const double(&of_axis)[kPacketRays]) HWY_ATTR { return hn::Load(tag, of_axis + i); };
+      const auto x = load(d[0]), y = load(d[1]), z = load(d[2]);
       const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
       const auto is_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az)), is_y = hn::AndNot(is_x, hn::Ge(ay, az));
-      const auto is_alike = kz == 0 ? is_x : kz == 1 ? is_y : hn::Not(hn::Or(is_x, is_y));
       uint8_t bits[8] = {};
-      hn::StoreMaskBits(tag, is_alike, bits);
-      alike |= static_cast<LaneBits>(bits[0]) << i;
-      const auto inverse = hn::Div(hn::Set(tag, 1.0), hn::Load(tag, d[kz] + i));
+      hn::StoreMaskBits(tag, is_x, bits);
+      by_x |= static_cast<LaneBits>(bits[0]) << i;
+      hn::StoreMaskBits(tag, is_y, bits);
+      by_y |= static_cast<LaneBits>(bits[0]) << i;
+      DoubleVec along[3] = {x, y, z}, place[3] = {load(local.moved[0]), load(local.moved[1]), load(local.moved[2])};
+      turn(is_x, is_y, along), turn(is_x, is_y, place);
+      for (int k = 0; k < 3; ++k) hn::Store(place[k], tag, moved[k] + i);
+      const auto inverse = hn::Div(hn::Set(tag, 1.0), along[2]);
       hn::Store(inverse, tag, sz + i);
-      hn::Store(hn::Mul(hn::Load(tag, d[kx] + i), inverse), tag, sx + i);
-      hn::Store(hn::Mul(hn::Load(tag, d[ky] + i), inverse), tag, sy + i);
+      hn::Store(hn::Mul(along[0], inverse), tag, sx + i);
+      hn::Store(hn::Mul(along[1], inverse), tag, sy + i);
     }
+    constexpr LaneBits kAll = first_lanes(kPacketRays);
+    is_mixed = by_x != kAll && by_y != kAll && (by_x | by_y) != 0;
+    kz = is_mixed ? 2 : by_x == kAll ? 0 : by_y == kAll ? 1 : 2;
+    kx = (kz + 1) % 3, ky = (kz + 2) % 3;
   }
 
-  // The lanes of a register from i on that meet their triangles; vertex(v, k): of these, along kx, ky and kz.
+  // From x, y, z to each lane's kx, ky, kz.
+  template <class Mask>
+  static HWY_INLINE void turn(Mask is_x, Mask is_y, DoubleVec (&p)[3]) {
+    const DoubleVec x = p[0], y = p[1], z = p[2];
+    p[0] = hn::IfThenElse(is_x, y, hn::IfThenElse(is_y, z, x));
+    p[1] = hn::IfThenElse(is_x, z, hn::IfThenElse(is_y, x, y));
+    p[2] = hn::IfThenElse(is_x, x, hn::IfThenElse(is_y, y, z));
+  }
+
+  // The lanes of a register from i on that meet their triangles; vertex(v, k): of these, along axis(k).
   template <class Vertex>
   HWY_INLINE LaneBits meet_some(size_t i, const Vertex& vertex, ExactHits& out) const {
     const DoubleTag tag;
     using V = DoubleVec;
-    const V ox = hn::Load(tag, local.moved[kx] + i), oy = hn::Load(tag, local.moved[ky] + i),
-            oz = hn::Load(tag, local.moved[kz] + i);
+    const V ox = hn::Load(tag, moved[0] + i), oy = hn::Load(tag, moved[1] + i), oz = hn::Load(tag, moved[2] + i);
     const V slope_x = hn::Load(tag, sx + i), slope_y = hn::Load(tag, sy + i);
-    V x[3], y[3], z[3];
+    V p[3][3], x[3], y[3], z[3];
+    for (int v = 0; v < 3; ++v)
+      for (int k = 0; k < 3; ++k) p[v][k] = vertex(v, k);
+    if (is_mixed) {
+      const uint8_t x_bits[8] = {static_cast<uint8_t>(by_x >> i)}, y_bits[8] = {static_cast<uint8_t>(by_y >> i)};
+      const auto is_x = hn::LoadMaskBits(tag, x_bits), is_y = hn::LoadMaskBits(tag, y_bits);
+      for (auto& corner : p) turn(is_x, is_y, corner);
+    }
     for (int v = 0; v < 3; ++v) {
-      z[v] = hn::Sub(vertex(v, 2), oz);
-      x[v] = hn::Sub(hn::Sub(vertex(v, 0), ox), hn::Mul(slope_x, z[v]));
-      y[v] = hn::Sub(hn::Sub(vertex(v, 1), oy), hn::Mul(slope_y, z[v]));
+      z[v] = hn::Sub(p[v][2], oz);
+      x[v] = hn::Sub(hn::Sub(p[v][0], ox), hn::Mul(slope_x, z[v]));
+      y[v] = hn::Sub(hn::Sub(p[v][1], oy), hn::Mul(slope_y, z[v]));
     }
     const V u = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])),
             v = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),

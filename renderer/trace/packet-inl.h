@@ -355,15 +355,8 @@ class PacketWalk {
     const MeshLanes& in = inside(index);
     constexpr size_t kStep = hn::MaxLanes(LaneTag());
     for (size_t i = 0; i < kPacketRays; i += kStep) {
-      const LaneBits here = lanes & in.alike & first_lanes(kStep) << i;
+      const LaneBits here = lanes & first_lanes(kStep) << i;
       if (here != 0) finish_some(mesh, in, here, i);
-    }
-    for (lanes &= ~in.alike; lanes != 0; lanes &= lanes - 1) {
-      const size_t i = lowest_of(lanes);
-      const Walk<kAnyHit> walk(scene_, input_[i]);
-      Hit hit;
-      (void)walk.meet_triangle(walk.inside(index), lane_.prim[i], hit);
-      t_[i] = hit.t, b0_[i] = hit.b0, b1_[i] = hit.b1;
     }
   }
   // Lanes of the register from `first` on.
@@ -499,10 +492,10 @@ class PacketWalk {
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
     ExactHits hits;
     const LaneBits met = in.meet(lanes, vertex, hits);
-    for (lanes &= met | ~in.alike; lanes != 0; lanes &= lanes - 1) {
+    for (lanes = met; lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
       Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
-      if (!(in.alike >> i & 1) || !(hit.t > given_.reach[i])) {
+      if (!(hit.t > given_.reach[i])) {
         const Walk<kAnyHit> walk(scene_, input_[i]);
         if (!walk.meet_triangle(walk.inside(body), prim, hit)) continue;
       }
