@@ -441,6 +441,11 @@ class PacketWalk {
   }
 
   void visit_solid(uint32_t index, LaneBits lanes) {
+    constexpr size_t kFewLanes = 3;  // are asked one by one
+    if (hwy::PopCount(lanes) <= kFewLanes) {
+      for (; lanes != 0; lanes &= lanes - 1) ask_solid(index, lowest_of(lanes));
+      return;
+    }
     const CompiledBody& body = scene_.bodies[index];
     LocalLanes local;
     LaneSpans spans;
@@ -461,9 +466,17 @@ class PacketWalk {
         t = far, prim = spans.far_prim[i];
         is_told = far > reach;
       }
-      if (!is_told && !Walk<kAnyHit>(scene_, input_[i]).meet_solid(index, t, prim)) continue;
-      offer(i, index, prim, t, 0.0, 0.0);
+      if (is_told) {
+        offer(i, index, prim, t, 0.0, 0.0);
+      } else {
+        ask_solid(index, i);
+      }
     }
+  }
+  void ask_solid(uint32_t index, size_t lane) {
+    double t = 0.0;
+    uint32_t prim = 0;
+    if (Walk<kAnyHit>(scene_, input_[lane]).meet_solid(index, t, prim)) offer(lane, index, prim, t, 0.0, 0.0);
   }
 
   template <size_t kCount>
@@ -487,20 +500,22 @@ class PacketWalk {
   // In double, which rays meet a triangle, and where.
   void decide(uint32_t body, uint32_t prim, LaneBits lanes) {
     const CompiledMesh& mesh = *scene_.bodies[body].mesh;
-    const MeshLanes& in = inside(body);
     const auto& triangle = mesh.triangles[prim];
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
     ExactHits hits;
-    const LaneBits met = in.meet(lanes, vertex, hits);
-    for (lanes = met; lanes != 0; lanes &= lanes - 1) {
+    for (lanes = inside(body).meet(lanes, vertex, hits); lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
-      Hit hit{hits.t[i], body, prim, hits.b0[i], hits.b1[i]};
-      if (!(hit.t > given_.reach[i])) {
-        const Walk<kAnyHit> walk(scene_, input_[i]);
-        if (!walk.meet_triangle(walk.inside(body), prim, hit)) continue;
+      if (hits.t[i] > given_.reach[i]) {
+        offer(i, body, prim, hits.t[i], hits.b0[i], hits.b1[i]);
+      } else {
+        decide_alone(body, prim, i);
       }
-      offer(i, body, prim, hit.t, hit.b0, hit.b1);
     }
+  }
+  void decide_alone(uint32_t body, uint32_t prim, size_t lane) {
+    const Walk<kAnyHit> walk(scene_, input_[lane]);
+    Hit hit;
+    if (walk.meet_triangle(walk.inside(body), prim, hit)) offer(lane, body, prim, hit.t, hit.b0, hit.b1);
   }
 
   const CompiledScene& scene_;
