@@ -76,8 +76,9 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<FloatTag>> sorted_down(hn::Vec<hn::Rebin
 }
 #endif
 
-// Pushes those of a node's children whose boxes the ray may meet before t_max, the nearest last. That the origin is
-// scaled before it is subtracted is a rounding of the origin, which the boxes' width covers.
+// Pushes those of a node's children whose boxes the ray may meet before t_max, the nearest last if they are to be
+// sorted. That the origin is scaled before it is subtracted is a rounding of the origin, which the boxes' width covers.
+template <bool kSorted>
 HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& ray) {
   const FloatTag tag;
   constexpr size_t kLanes = hn::MaxLanes(tag);
@@ -98,13 +99,18 @@ HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& r
     // No branches: how many boxes a ray meets is hard to predict. The order is that of the distances' bits, of which
     // the last three make room for the place.
     const hn::RebindToUnsigned<FloatTag> int_tag;
-    const auto distance = hn::BitCast(int_tag, hn::Sub(near, hn::Set(tag, ray.t_min)));
-    const auto key = hn::Or(hn::AndNot(hn::Set(int_tag, 7), distance), hn::Iota(int_tag, 0));
-    const auto sorted = sorted_down(hn::IfThenElseZero(hn::RebindMask(int_tag, is_met), key));
-    const auto order = hn::IndicesFromVec(int_tag, hn::And(sorted, hn::Set(int_tag, 7)));
-    hn::StoreU(hn::TableLookupLanes(hn::Load(int_tag, node.child), order), int_tag, ray.node + ray.top);
-    hn::StoreU(hn::TableLookupLanes(near, hn::IndicesFromVec(tag, hn::And(sorted, hn::Set(int_tag, 7)))), tag,
-               ray.t + ray.top);
+    const auto places = hn::Iota(int_tag, 0), seven = hn::Set(int_tag, 7);
+    auto order = places;
+    if constexpr (kSorted) {
+      const auto distance = hn::BitCast(int_tag, hn::Sub(near, hn::Set(tag, ray.t_min)));
+      const auto key = hn::Or(hn::AndNot(seven, distance), places);
+      order = hn::And(sorted_down(hn::IfThenElseZero(hn::RebindMask(int_tag, is_met), key)), seven);
+    } else {
+      order = hn::Compress(places, hn::RebindMask(int_tag, is_met));
+    }
+    hn::StoreU(hn::TableLookupLanes(hn::Load(int_tag, node.child), hn::IndicesFromVec(int_tag, order)), int_tag,
+               ray.node + ray.top);
+    hn::StoreU(hn::TableLookupLanes(near, hn::IndicesFromVec(tag, order)), tag, ray.t + ray.top);
     ray.top += static_cast<int>(hn::CountTrue(tag, is_met));
 #else
     hn::Store(near, tag, entry + i);

@@ -262,7 +262,7 @@ class PacketWalk {
         const Entry met{node.child[c], entry[c], lanes};
         prefetch(tree, met.node);
         int place = top++;
-        for (; place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
+        for (; !kAnyHit && place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
         stack[place] = met;
       }
     }
@@ -300,7 +300,7 @@ class PacketWalk {
         visit_block(tree.blocks[leaf], ray, lane);
       }
     } else {
-      push_children(tree.nodes[next], high, ray);
+      push_children<!kAnyHit>(tree.nodes[next], high, ray);  // of shadow rays the first hit will do
     }
     if (ray.top == 0) return false;
     prefetch_any(tree, ray.node[ray.top - 1]);
