@@ -31,7 +31,7 @@ struct LoneRay {
     const float d[3] = {rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
     for (int axis = 0; axis < 3; ++axis) {
       inverse[axis] = rays.inverse[axis][lane];
-      scaled[axis] = rays.origin[axis][lane] * inverse[axis];
+      scaled[axis] = rays.scaled[axis][lane];
       constexpr int kWidth = WideBvh::kWidth;
       const int lower = axis * kWidth, upper = (3 + axis) * kWidth;
       near_at[axis] = inverse[axis] < 0.0f ? upper : lower, far_at[axis] = inverse[axis] < 0.0f ? lower : upper;
@@ -77,7 +77,7 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<FloatTag>> sorted_down(hn::Vec<hn::Rebin
 #endif
 
 // Pushes those of a node's children whose boxes the ray may meet before t_max, the nearest last if they are to be
-// sorted. That the origin is scaled before it is subtracted is a rounding of the origin, which the boxes' width covers.
+// sorted.
 template <bool kSorted>
 HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& ray) {
   const FloatTag tag;

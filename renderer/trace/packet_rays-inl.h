@@ -111,6 +111,7 @@ HWY_INLINE void read_rays(std::span<const BoundedRay> rays, GivenRays& out) {
 // The rays in the world, as FilterRay has one; t counts from the moved origins.
 struct PacketRays {
   alignas(64) float origin[3][kPacketRays], direction[3][kPacketRays], inverse[3][kPacketRays];
+  alignas(64) float scaled[3][kPacketRays];                // a plane p is met at p * inverse - scaled
   alignas(64) float t_min[kPacketRays], tie[kPacketRays];  // tie: how far apart hits are that may be in one place
   alignas(64) float slope[2][kPacketRays];                 // of the sheared planes, along kx and ky
   alignas(64) double shift[kPacketRays];
@@ -177,10 +178,11 @@ HWY_INLINE void make_lanes(const GivenRays& given, PacketRays& out, float* t_sur
       ends[h] = hn::Min(hn::Sub(hn::Load(wide, given.t_max + k), shift), hn::Set(wide, double{WideBvh::kNowhere}));
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-      const V d = narrowed(direction[axis]);
-      hn::Store(narrowed(origin[axis]), tag, out.origin[axis] + i);
+      const V d = narrowed(direction[axis]), o = narrowed(origin[axis]), inverse = inverse_of(d);
+      hn::Store(o, tag, out.origin[axis] + i);
       hn::Store(d, tag, out.direction[axis] + i);
-      hn::Store(inverse_of(d), tag, out.inverse[axis] + i);
+      hn::Store(inverse, tag, out.inverse[axis] + i);
+      hn::Store(hn::Mul(o, inverse), tag, out.scaled[axis] + i);
     }
     const V shift = narrowed(shifts), reach = narrowed(reaches), end = narrowed(ends);
     const V start = hn::Neg(hn::Add(reach, shift));
@@ -333,7 +335,8 @@ HWY_INLINE uint32_t boxes_met(const PacketRays& rays, const Plane& plane, float 
   return mask;
 }
 
-// Of kCount lanes those that meet the c-th box of a node.
+// Of kCount lanes those that meet the c-th box of a node. That an origin is scaled before it is subtracted is a
+// rounding of the origin, which the boxes' width covers.
 template <size_t kCount>
 HWY_INLINE LaneBits lanes_met(const PacketRays& rays, const WideBvh::Node& node, int c, const float* t_max) {
   const LaneTag tag;
@@ -342,10 +345,10 @@ HWY_INLINE LaneBits lanes_met(const PacketRays& rays, const WideBvh::Node& node,
     const size_t i = rays.first + k;
     auto near = hn::Load(tag, rays.t_min + i), far = hn::Load(tag, t_max + i);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto origin = hn::Load(tag, rays.origin[axis] + i), inverse = hn::Load(tag, rays.inverse[axis] + i);
+      const auto scaled = hn::Load(tag, rays.scaled[axis] + i), inverse = hn::Load(tag, rays.inverse[axis] + i);
       const int side = rays.is_mixed[axis] ? 0 : rays.near_side[axis];
-      auto a = hn::Mul(hn::Sub(hn::Set(tag, node.bounds[side][axis][c]), origin), inverse);
-      auto b = hn::Mul(hn::Sub(hn::Set(tag, node.bounds[1 - side][axis][c]), origin), inverse);
+      auto a = hn::MulSub(hn::Set(tag, node.bounds[side][axis][c]), inverse, scaled);
+      auto b = hn::MulSub(hn::Set(tag, node.bounds[1 - side][axis][c]), inverse, scaled);
       if (rays.is_mixed[axis]) {
         const auto lesser = hn::Min(a, b);
         b = hn::Max(a, b), a = lesser;
