@@ -229,6 +229,33 @@ TEST_F(TraceRays, OfAnyHitAgreeWithThoseOfTheNearest) {
   }
 }
 
+// A packet keeps its hits to within a float at first, also those that it has computed in double.
+TEST_F(TraceRays, MeetNothingAtTheirEndsOrBeyondThem) {
+  for (const Shape& shape : {Shape(MeshShape{0}), Shape(SphereShape{{0, 0, 0}, 1.0})}) {
+    Scene scene = scene_of_shapes({shape});
+    scene.meshes = {icosphere(3)};
+    const auto compiled = compile_scene(scene, pool_);
+    std::vector<BoundedRay> rays;
+    for (int i = 0; i < 32; ++i) {
+      const Vec3 from(0.01 * (i % 8), 0.01 * (i / 8), 3.0);
+      rays.push_back({{from, glm::normalize(Vec3(0.1, 0.2, 0.0) - from), {}}});
+    }
+    std::vector<Hit> nearest(rays.size()), hits(rays.size());
+    trace_closest(*compiled, rays, nearest);
+    for (const double factor : {1.0 - 1e-7, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.0 + 1e-7}) {
+      for (size_t i = 0; i < rays.size(); ++i) rays[i].t_max = nearest[i].t * factor;
+      for (const std::string& isa : available_isas()) {
+        ASSERT_TRUE(select_isa(isa).has_value());
+        trace_closest(*compiled, rays, hits);
+        for (size_t i = 0; i < rays.size(); ++i) {
+          ASSERT_TRUE(nearest[i].is_hit());
+          EXPECT_EQ(hits[i].is_hit(), nearest[i].t < rays[i].t_max) << isa << ", ray " << i << ", " << factor;
+        }
+      }
+    }
+  }
+}
+
 // Neighbouring rays are walked together, through a tree that holds most meshes' triangles; what they meet may not
 // depend on that in a bit.
 TEST_F(TraceRays, MeetInBundlesWhatTheyMeetOneByOneAndInMeshesTreesOfTheirOwn) {
