@@ -84,11 +84,13 @@ void trace_waves(const CompiledScene& scene, const std::vector<Wave>& waves, Til
   for (const Wave& wave : waves) {
     pool.parallel_for(static_cast<int64_t>(wave.batches.size()), Priority::normal, [&](int64_t i) {
       const Batch& rays = wave.batches[static_cast<size_t>(i)];
-      if (wave.any_hit) {
-        std::vector<uint8_t> is_blocked(rays.size());
+      if (wave.any_hit) {  // the answers' places are kept, as a kernel keeps them and as the peer has them in its rays
+        thread_local std::vector<uint8_t> is_blocked;
+        is_blocked.resize(rays.size());
         trace_any(scene, rays, is_blocked);
       } else {
-        std::vector<Hit> hits(rays.size());
+        thread_local std::vector<Hit> hits;
+        hits.resize(rays.size());
         trace_closest(scene, rays, hits);
       }
     });
