@@ -144,11 +144,8 @@ class PacketWalk {
     const LaneBits all = first_lanes(input_.size());
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
     if (!scene_.tree.nodes.empty()) {
-      if (input_.size() > kPacketRays / 2) {
-        walk_range<kPacketRays>(0);
-      } else {
-        walk_range<kPacketRays / 2>(0);
-      }
+      constexpr size_t kHalf = kPacketRays / 2;
+      walk_apart(input_.size() > kHalf ? walk_range<kPacketRays>(0) : walk_range<kHalf>(0), 0);
     }
     return end_walk();
   }
@@ -187,16 +184,18 @@ class PacketWalk {
   }
 
  private:
-  // As many together as go nearly the same way.
+  // As many together as go nearly the same way; returned are the others.
   template <size_t kCount>
-  void walk_range(size_t first) {
-    if (bound_lanes<kCount>(first, rays_)) return walk<kCount>();
-    const size_t end = std::min(first + kCount, input_.size());
+  LaneBits walk_range(size_t first) {
+    if (first >= input_.size()) return 0;
+    if (bound_lanes<kCount>(first, rays_)) {
+      walk<kCount>();
+      return 0;
+    }
     if constexpr (kCount > 16) {
-      walk_range<kCount / 2>(first);
-      if (first + kCount / 2 < end) walk_range<kCount / 2>(first + kCount / 2);
+      return walk_range<kCount / 2>(first) | walk_range<kCount / 2>(first + kCount / 2);
     } else {
-      walk_apart(first_lanes(end) & ~first_lanes(first), 0);
+      return first_lanes(std::min(first + kCount, input_.size())) & ~first_lanes(first);
     }
   }
 
