@@ -68,7 +68,8 @@ void ErrorMap::measure(const Film& film, const Image& image, const TileRect& par
 void ErrorMap::measure_run(const Film& film, const Image& image, const TileRect& run, const ErrorRule& rule) {
   const size_t pixels = static_cast<size_t>(run.width()), channels = 3 * pixels;
   const float of_pixel = static_cast<float>(3 * rule.pairs.total());
-  std::array<std::array<double, kErrorLevels>, kRunPx / kCellPx> sums{};  // by cell
+  const size_t levels = std::min<size_t>(rule.pairs.levels(), kErrorLevels);  // never more; so the compiler knows
+  std::array<std::array<double, kErrorLevels>, kRunPx / kCellPx> sums{};      // by cell
   for (int y = run.y0; y < run.y1; ++y) {
     const size_t first = (static_cast<size_t>(y) * width_ + run.x0) * 3;
     ChannelRow shown;
@@ -83,8 +84,7 @@ void ErrorMap::measure_run(const Film& film, const Image& image, const TileRect&
     for (size_t k = 0; k < row.count; ++k) {
       const size_t channel = row.channel[k];
       own[channel] = row.variance[k];
-      for (size_t level = 0; level < rule.pairs.levels(); ++level)
-        sums[channel / (3 * kCellPx)][level] += row.levels[level][k];
+      for (size_t level = 0; level < levels; ++level) sums[channel / (3 * kCellPx)][level] += row.levels[level][k];
     }
     float* const out = &own_[at(run.x0, y)];
     for (size_t i = 0; i < pixels; ++i) out[i] = (own[3 * i] + own[3 * i + 1] + own[3 * i + 2]) / of_pixel;

@@ -75,23 +75,23 @@ using SamplePlanes = std::array<float*, kSampleBlocks>;
 class TileView {
  public:
   TileView(SamplePlanes planes, int film_width) : planes_(planes), film_width_(film_width) {}
-  // REQUIRES: (x, y) in the window, film coordinates; every sample before `index` is there.
-  void add(int x, int y, uint32_t index, float r, float g, float b) {
-    const size_t at = (static_cast<size_t>(y) * film_width_ + x) * 3;
-    if (index >= kSampleBlocks && std::has_single_bit(index)) join_blocks(at);
+  // Sample `index` of `count` pixels of a row, the first of them (x, y); rgb: three floats a pixel. REQUIRES: in the
+  // window, film coordinates; every sample before `index` is there.
+  void add(int x, int y, int count, uint32_t index, const float* rgb) {
+    const size_t at = (static_cast<size_t>(y) * film_width_ + x) * 3, floats = 3 * static_cast<size_t>(count);
+    if (index >= kSampleBlocks && (index & (index - 1)) == 0) join_blocks(at, floats);
     const int shift = std::countr_zero(sample_block_length(index));
     float* const p = planes_[index >> shift] + at;
     // What was there before a block's first sample is of no account, and was never written by anybody.
-    if (index == index >> shift << shift) p[0] = 0.0f, p[1] = 0.0f, p[2] = 0.0f;
-    p[0] += r, p[1] += g, p[2] += b;
+    const bool is_first = index == index >> shift << shift;
+    for (size_t i = 0; i < floats; ++i) p[i] = (is_first ? 0.0f : p[i]) + rgb[i];
   }
 
  private:
   // Eight full blocks become four of twice the length.
-  void join_blocks(size_t at) {
-    for (size_t channel = at; channel < at + 3; ++channel) {
-      for (size_t i = 0; i < kSampleBlocks / 2; ++i)
-        planes_[i][channel] = planes_[2 * i][channel] + planes_[2 * i + 1][channel];
+  void join_blocks(size_t at, size_t floats) {
+    for (size_t i = 0; i < kSampleBlocks / 2; ++i) {
+      for (size_t f = at; f < at + floats; ++f) planes_[i][f] = planes_[2 * i][f] + planes_[2 * i + 1][f];
     }
   }
 

@@ -13,7 +13,8 @@ void draw_ink(const LineInk& ink, const RenderSpec& spec, const TileJob& job) {
       for_each_pixel(cell.rect, [&](int x, int y) {
         const SamplePoint p = place_sample(spec, x, y, index);
         const float shade = ink.is_inked(x + p.x, y + p.y) ? kInk : kPaper;
-        job.film->add(x, y, index, shade, shade, shade);
+        const float rgb[] = {shade, shade, shade};
+        job.film->add(x, y, 1, index, rgb);
       });
     }
   }

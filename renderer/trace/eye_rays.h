@@ -6,11 +6,11 @@
 
 #include "renderer/compile/eye.h"
 #include "renderer/shade/ray.h"
+#include "renderer/trace/pixel_filter.h"
 
 namespace tilelight {
 
-// rays[i] passes through points[i] of the image, pixels from its top left corner; its t_max and what it has left stay
-// as they are. REQUIRES: equal sizes.
-void aim_eye_rays(const Eye& eye, std::span<const Vec2> points, std::span<BoundedRay> rays);
+// rays[i] passes through point i; its t_max and what it has left stay as they are. REQUIRES: equal sizes.
+void aim_eye_rays(const Eye& eye, const ImagePoints& points, std::span<BoundedRay> rays);
 
 }  // namespace tilelight

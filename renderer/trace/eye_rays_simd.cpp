@@ -13,19 +13,20 @@ HWY_BEFORE_NAMESPACE();
 namespace tilelight {
 namespace HWY_NAMESPACE {
 
-void aim_rays(const Eye& eye, std::span<const Vec2> points, std::span<BoundedRay> rays) {
+void aim_rays(const Eye& eye, const ImagePoints& points, std::span<BoundedRay> rays) {
   const bool is_orthographic = eye.projection == Projection::orthographic;
   const auto corner = of<Lanes>(eye.corner), step_x = of<Lanes>(eye.step_x), step_y = of<Lanes>(eye.step_y),
              start = of<Lanes>(eye.start), forward = of<Lanes>(eye.forward);
   const Lanes lead(eye.lead);
   for (size_t first = 0; first < points.size(); first += kLanes) {
     const size_t count = std::min(kLanes, points.size() - first);
-    Gathered x{}, y{};
-    for (size_t i = 0; i < kLanes; ++i) {
-      const Vec2& point = points[first + (i < count ? i : 0)];
-      x.at[i] = point.x, y.at[i] = point.y;
-    }
-    const auto across = corner + x.lanes() * step_x + y.lanes() * step_y;
+    const auto of_points = [&](const std::vector<double>& column) HWY_ATTR {
+      if (count == kLanes) return load(&column[first]);
+      Gathered some{};
+      std::copy_n(&column[first], count, some.at);
+      return some.lanes();
+    };
+    const auto across = corner + of_points(points.x) * step_x + of_points(points.y) * step_y;
     const Gathered3 origin(start + lead * across);
     const Gathered3 direction(is_orthographic ? forward : normalized(forward + across));
     for (size_t i = 0; i < count; ++i) {
@@ -44,7 +45,7 @@ namespace tilelight {
 
 HWY_EXPORT(aim_rays);
 
-void aim_eye_rays(const Eye& eye, std::span<const Vec2> points, std::span<BoundedRay> rays) {
+void aim_eye_rays(const Eye& eye, const ImagePoints& points, std::span<BoundedRay> rays) {
   HWY_DYNAMIC_DISPATCH(aim_rays)(eye, points, rays);
 }
 

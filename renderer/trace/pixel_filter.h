@@ -3,6 +3,9 @@
 // its own samples (Ernst, Stamminger, Greiner 2006, "Filter importance sampling"). Pure.
 #pragma once
 
+#include <vector>
+
+#include "renderer/film/film.h"
 #include "renderer/film/sampling.h"
 #include "renderer/scene/scene.h"
 
@@ -19,5 +22,15 @@ SamplePoint through_filter(PixelFilter filter, SamplePoint point);
 // have their samples on a grid of 1/256 pixel, so that edge functions of corners on that grid are exact.
 inline constexpr double kSubpixels = 256.0;
 SamplePoint place_sample(const RenderSpec& spec, int x, int y, uint32_t index);
+
+// Points of the image, in pixels from its top left corner, in columns.
+struct ImagePoints {
+  std::vector<double> x, y;
+  size_t size() const { return x.size(); }
+  void clear() { x.clear(), y.clear(); }
+};
+
+// Appends where sample `index` of every pixel lies, row by row.
+void place_cell(const RenderSpec& spec, const TileRect& rect, uint32_t index, ImagePoints& points);
 
 }  // namespace tilelight

@@ -187,11 +187,7 @@ class TileKernel {
   void start_batch() {
     if (levels_.empty()) levels_.emplace_back();
     enter_eye_media();
-    points_.clear();
-    for_each_sample([&](int x, int y, uint32_t index) {
-      const SamplePoint p = job_.first_hits ? job_.first_hits->place(x, y, index) : place_sample(spec_, x, y, index);
-      points_.emplace_back(x + p.x, y + p.y);
-    });
+    place_samples();
     const size_t count = points_.size();
     start_paths(count);
     aim_eye_rays(plan_.eye, points_, levels_[0].rays);
@@ -203,6 +199,20 @@ class TileKernel {
     radiance_.assign(count, Color(0.0));
     spent_.assign(count, 0);
     untraced_.assign(count, 0.0);
+  }
+
+  void place_samples() {
+    points_.clear();
+    for (const CellSample& cell : batch_) {
+      if (!job_.first_hits) {
+        place_cell(spec_, cell.rect, cell.index, points_);
+        continue;
+      }
+      for_each_pixel(cell.rect, [&](int x, int y) {
+        const SamplePoint p = job_.first_hits->place(x, y, cell.index);
+        points_.x.push_back(x + p.x), points_.y.push_back(y + p.y);
+      });
+    }
   }
 
   // Primary rays and paths as they start. Only glass ever changes them; without it those of the last batch are good.
@@ -428,18 +438,26 @@ class TileKernel {
   }
 
   void finish_batch() {
-    size_t sample = 0;
-    for_each_sample([&](int x, int y, uint32_t index) {
-      const Color& c = radiance_[sample];
+    const size_t count = radiance_.size();
+    finished_.resize(3 * count);
+    for (size_t i = 0; i < count; ++i) {
+      const Color& c = radiance_[i];
       // More than this no sum of samples in float can hold.
       constexpr double kMost = 1e34;
       const bool is_finite = std::abs(c.r) < kMost && std::abs(c.g) < kMost && std::abs(c.b) < kMost;
       counts_.nonfinite += !is_finite;
-      counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[sample++]);
-      if (!job_.film) return;
+      counts_.untraced_weight = std::max(counts_.untraced_weight, untraced_[i]);
       const Color kept = is_finite ? c : Color(0.0);
-      job_.film->add(x, y, index, static_cast<float>(kept.r), static_cast<float>(kept.g), static_cast<float>(kept.b));
-    });
+      for (int channel = 0; channel < 3; ++channel)
+        finished_[3 * i + static_cast<size_t>(channel)] = static_cast<float>(kept[channel]);
+    }
+    if (!job_.film) return;
+    const float* from = finished_.data();
+    for (const CellSample& cell : batch_) {
+      const int width = cell.rect.width();
+      for (int y = cell.rect.y0; y < cell.rect.y1; ++y, from += 3 * width)
+        job_.film->add(cell.rect.x0, y, width, cell.index, from);
+    }
   }
 
   const TileJob& job_;
@@ -450,7 +468,7 @@ class TileKernel {
   TileCounts& counts_;
   std::deque<Level> levels_;  // by depth; a deque, so that a level stays where it is while deeper ones come
   Level* next_ = nullptr;     // takes the rays that the part in work sends out
-  std::vector<Vec2> points_;  // of the image, where the batch's samples lie
+  ImagePoints points_;        // where the batch's samples lie
   std::vector<Hit> hits_;
   std::vector<Hit> first_hits_;  // of the batch's primary rays, where the job knows them
   SurfaceColumns surfaces_;      // of the hits
@@ -468,6 +486,7 @@ class TileKernel {
   MediaSets::Set eye_media_ = MediaSets::kOpenAir;
   MediaList some_media_;         // hold the starts of some rays of the batch
   std::vector<Color> radiance_;  // by sample of the batch
+  std::vector<float> finished_;  // the same, as the film takes it
   std::vector<int> spent_;       // rays after the primary one
   std::vector<double> untraced_;
 };

@@ -24,7 +24,8 @@ void take(Film& film, const TileRect& rect, uint32_t last, uint32_t seed, const 
       for_each_pixel(cell, [&](int x, int y) {
         const SamplePoint p = sample_point(x, y, seed, i);
         const float grey = shade(x + p.x, y + p.y);
-        view.add(x, y, i, grey, grey, grey);
+        const float rgb[] = {grey, grey, grey};
+        view.add(x, y, 1, i, rgb);
       });
     }
     taken = std::max(taken, last);
@@ -53,7 +54,10 @@ TEST(Film, ResolvesToTheMeanOfItsSamplesPixelByPixel) {
     film.fill_black(count);
     TileView view = film.view();
     // Whole numbers: every sum is exact.
-    for (uint32_t i = 0; i < count; ++i) view.add(4, 2, i, static_cast<float>(i), 10.0f * static_cast<float>(i), 1.0f);
+    for (uint32_t i = 0; i < count; ++i) {
+      const float rgb[] = {static_cast<float>(i), 10.0f * static_cast<float>(i), 1.0f};
+      view.add(4, 2, 1, i, rgb);
+    }
     const Image image = resolved(film);
     const float mean = 0.5f * static_cast<float>(count - 1);
     const size_t at = (2 * 5 + 4) * 3;

@@ -144,14 +144,14 @@ TEST_F(Surfaces, AreSeenByTheRaysOfTheEye) {
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     camera.projection = projection;
     const Eye eye = make_eye(camera, 64, 48, Vec3(0.0), 1.0);
-    std::vector<Vec2> points;
-    for (int i = 0; i < 101; ++i) points.emplace_back(0.61 * i, 0.37 * i);
+    ImagePoints points;
+    for (int i = 0; i < 101; ++i) points.x.push_back(0.61 * i), points.y.push_back(0.37 * i);
     for (const std::string& isa : available_isas()) {
       ASSERT_TRUE(select_isa(isa).has_value());
       std::vector<BoundedRay> rays(points.size());
       aim_eye_rays(eye, points, rays);
       for (size_t i = 0; i < points.size(); ++i) {
-        const EyeRay one = eye_ray(eye, points[i].x, points[i].y);
+        const EyeRay one = eye_ray(eye, points.x[i], points.y[i]);
         EXPECT_EQ(rays[i].ray.origin, one.origin) << isa;
         EXPECT_EQ(rays[i].ray.direction, one.direction) << isa;
       }
