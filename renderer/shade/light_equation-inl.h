@@ -91,7 +91,8 @@ struct LightSampleOf {
   MaskOf<R> is_lit;
   Of3<R> arriving, diffuse, specular;  // 0 where not lit
 };
-template <class R>
+// kGlossy: something in the scene has a specular part.
+template <bool kGlossy, class R>
 HWY_INLINE LightSampleOf<R> light_at(const CompiledScene& scene, const CompiledLight& light,
                                      const SurfaceOf<R>& surface, const GlossOf<R>& gloss, const Of3<R>& to_viewer,
                                      MaskOf<R> is_rounded) {
@@ -108,8 +109,9 @@ HWY_INLINE LightSampleOf<R> light_at(const CompiledScene& scene, const CompiledL
   const Of3<R> arriving = factor * of<R>(light.intensity);
   out.arriving = select(out.is_lit, arriving, none);
   out.diffuse = select(out.is_lit, cosine * (arriving * surface.diffuse), none);
+  if (!kGlossy) return out;
   const auto is_glossy = out.is_lit & gloss.is_specular;
-  if (!is_built_in(Feature::specular) || !any(is_glossy)) return out;
+  if (!any(is_glossy)) return out;
   const Of3<R> mirrored = (R(2.0) * cosine) * surface.normal - to_light;
   const R shine = lobe(mirrored, to_viewer, gloss.shininess);
   out.specular = select(is_glossy, shine * (arriving * gloss.specular), none);

@@ -32,7 +32,7 @@ struct SurfaceColumns {
   Column3 direction;  // of the ray
   Column3 position, geometric_normal, normal, ambient, diffuse;
   Column3 start;     // of shadow rays: off the facet where a surface is rounded
-  Column3 specular;  // ks
+  Column3 specular;  // ks; this, shininess and is_specular in scenes that have the feature alone
   Column shininess;
   std::vector<uint8_t> from_outside, is_specular, is_rounded;  // 0 or 1
 };

@@ -38,9 +38,14 @@ struct LaneSurfaces {
   LaneMask is_rounded;
 };
 
+HWY_INLINE bool has_gloss(const CompiledScene& scene) {
+  return is_built_in(Feature::specular) && scene.plan.features.has(Feature::specular);
+}
+
 class SurfaceMaker {
  public:
-  SurfaceMaker(const CompiledScene& scene, const SurfaceOptions& options) : scene_(scene), options_(options) {}
+  SurfaceMaker(const CompiledScene& scene, const SurfaceOptions& options)
+      : scene_(scene), options_(options), has_gloss_(has_gloss(scene)) {}
 
   // The hits of rays[0], rays[1], ... count, at most kLanes, of them.
   HWY_INLINE void make(const BoundedRay* rays, const Hit* hits, size_t count, SurfaceColumns& out, size_t at) {
@@ -67,11 +72,12 @@ class SurfaceMaker {
     store(all.surface.ambient, out.ambient, at);
     store(all.surface.diffuse, out.diffuse, at);
     store(all.start, out.start, at);
+    store(all.surface.from_outside, out.from_outside, at);
+    store(all.is_rounded, out.is_rounded, at);
+    if (!has_gloss_) return;
     store(all.gloss.specular, out.specular, at);
     store(all.gloss.shininess, &out.shininess[at]);
-    store(all.surface.from_outside, out.from_outside, at);
     store(all.gloss.is_specular, out.is_specular, at);
-    store(all.is_rounded, out.is_rounded, at);
   }
 
  private:
@@ -89,8 +95,9 @@ class SurfaceMaker {
     const CompiledMaterial& material = scene_.materials[body.material];
     const bool is_mesh = is_built_in(Feature::triangles) && body.kind == BodyKind::mesh;
     LaneSurfaces out = is_mesh ? on_mesh(body, source) : on_solid(body, source);
-    out.gloss = {of<Lanes>(material.source.specular), Lanes(material.source.shininess),
-                 mask_of(material.is_specular ? ~0u : 0u)};
+    if (has_gloss_)
+      out.gloss = {of<Lanes>(material.source.specular), Lanes(material.source.shininess),
+                   mask_of(material.is_specular ? ~0u : 0u)};
     return out;
   }
 
@@ -141,7 +148,7 @@ class SurfaceMaker {
     return has_normals && options_.smooth_terminator && options_.shading != Shading::flat;
   }
 
-  static HWY_INLINE void blend(LaneMask mask, const LaneSurfaces& more, LaneSurfaces& all) {
+  HWY_INLINE void blend(LaneMask mask, const LaneSurfaces& more, LaneSurfaces& all) const {
     const auto take = [&](const auto& a, auto& b) HWY_ATTR { b = select(mask, a, b); };
     take(more.surface.position, all.surface.position);
     take(more.surface.geometric_normal, all.surface.geometric_normal);
@@ -150,10 +157,11 @@ class SurfaceMaker {
     take(more.surface.ambient, all.surface.ambient);
     take(more.surface.diffuse, all.surface.diffuse);
     take(more.start, all.start);
+    take(more.is_rounded, all.is_rounded);
+    if (!has_gloss_) return;
     take(more.gloss.specular, all.gloss.specular);
     take(more.gloss.shininess, all.gloss.shininess);
     take(more.gloss.is_specular, all.gloss.is_specular);
-    take(more.is_rounded, all.is_rounded);
   }
 
   HWY_INLINE SurfaceOf<Lanes> seen(const CompiledBody& body, const LocalPointOf<Lanes>& local) const {
@@ -168,6 +176,7 @@ class SurfaceMaker {
 
   const CompiledScene& scene_;
   const SurfaceOptions& options_;
+  const bool has_gloss_;
   const BoundedRay* rays_ = nullptr;
   const Hit* hits_ = nullptr;
   Of3<Lanes> direction_;
@@ -180,19 +189,20 @@ void make_surface_columns(const CompiledScene& scene, std::span<const BoundedRay
     maker.make(&rays[i], &hits[i], std::min(kLanes, rays.size() - i), out, i);
 }
 
-void light_surface_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
-                           size_t count, bool casts_shadow, LightColumns& out) {
+template <bool kGlossy>
+HWY_INLINE void light_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
+                              size_t count, bool casts_shadow, LightColumns& out) {
   for (size_t i = 0; i < count; i += kLanes) {
     SurfaceOf<Lanes> surface;
     surface.position = load(surfaces.position, i);
     surface.geometric_normal = load(surfaces.geometric_normal, i);
     surface.normal = load(surfaces.normal, i);
     surface.diffuse = load(surfaces.diffuse, i);
-    const GlossOf<Lanes> gloss = {load(surfaces.specular, i), load(&surfaces.shininess[i]),
-                                  load(surfaces.is_specular, i)};
+    GlossOf<Lanes> gloss;
+    if (kGlossy) gloss = {load(surfaces.specular, i), load(&surfaces.shininess[i]), load(surfaces.is_specular, i)};
     const LaneMask is_rounded = load(surfaces.is_rounded, i);
-    const auto sample = light_at(scene, light, surface, gloss, -load(surfaces.direction, i), is_rounded);
-    store(sample.diffuse + sample.specular, out.light, i);
+    const auto sample = light_at<kGlossy>(scene, light, surface, gloss, -load(surfaces.direction, i), is_rounded);
+    store(kGlossy ? sample.diffuse + sample.specular : sample.diffuse, out.light, i);
     store(sample.way.distance == Lanes(0.0), out.is_at_light, i);
     LightWayOf<Lanes> way = sample.way;
     if (is_built_in(Feature::shadows) && casts_shadow && !is_directional(light) && any(is_rounded)) {
@@ -203,6 +213,15 @@ void light_surface_columns(const CompiledScene& scene, const CompiledLight& ligh
     }
     store(way.to_light, out.to_light, i);
     store(way.distance, &out.distance[i]);
+  }
+}
+
+void light_surface_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
+                           size_t count, bool casts_shadow, LightColumns& out) {
+  if (has_gloss(scene)) {
+    light_columns<true>(scene, light, surfaces, count, casts_shadow, out);
+  } else {
+    light_columns<false>(scene, light, surfaces, count, casts_shadow, out);
   }
 }
 

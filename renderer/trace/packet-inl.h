@@ -147,7 +147,7 @@ class PacketWalk {
       }
       if (e.node & WideBvh::kLeafBit) {
         const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
-        if (leaf & TriangleTree::kBodyBit) {
+        if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
           visit_body(leaf & ~TriangleTree::kBodyBit, e.lanes);
         } else {
           visit_block<kCount>(tree.blocks[leaf], e.lanes);
@@ -199,7 +199,7 @@ class PacketWalk {
     const uint32_t next = ray.node[ray.top];
     if (next & WideBvh::kLeafBit) {
       const uint32_t leaf = next & ~WideBvh::kLeafBit;
-      if (leaf & TriangleTree::kBodyBit) {
+      if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
         visit_body(leaf & ~TriangleTree::kBodyBit, bit_of(lane));
       } else {
         visit_block(tree.blocks[leaf], ray, lane);
@@ -331,7 +331,8 @@ class PacketWalk {
   }
 
   void visit_body(uint32_t index, LaneBits lanes) {
-    if (scene_.bodies[index].kind != BodyKind::mesh) return visit_solid(index, lanes);
+    if (!is_built_in(Feature::triangles) || scene_.bodies[index].kind != BodyKind::mesh)
+      return visit_solid(index, lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
       if (lane_.high[i] == -INFINITY) continue;
@@ -355,9 +356,9 @@ class PacketWalk {
     LocalLanes local;
     LaneSpans spans;
     transform_lanes(body.local_from_world, given_.origin, given_.direction, local);
-    if (body.kind == BodyKind::sphere) sphere_spans(local, spans);
-    if (body.kind == BodyKind::plane) plane_spans(local, spans);
-    if (body.kind == BodyKind::box) box_spans(body.half, local, spans);
+    if (is_built_in(Feature::spheres) && body.kind == BodyKind::sphere) sphere_spans(local, spans);
+    if (is_built_in(Feature::planes) && body.kind == BodyKind::plane) plane_spans(local, spans);
+    if (is_built_in(Feature::boxes) && body.kind == BodyKind::box) box_spans(body.half, local, spans);
     for (; lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
       const double near = spans.near[i], far = spans.far[i], reach = given_.reach[i];

@@ -13,6 +13,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "renderer/compile/built_in.h"
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 #include "renderer/trace/intersect.h"
@@ -240,12 +241,15 @@ class Walk {
     prim = 0;
     switch (body.kind) {
       case BodyKind::sphere:
+        if (!is_built_in(Feature::spheres)) break;
         return intersect_sphere(local, has_left, is_ahead, t);
       case BodyKind::box:
+        if (!is_built_in(Feature::boxes)) break;
         return intersect_box(
             body.half, local, has_left ? ray_.left.prim : kNone, is_ahead, [&] { return local_rounding(body, ray_); },
             t, prim);
       case BodyKind::plane:
+        if (!is_built_in(Feature::planes)) break;
         return intersect_plane(local, has_left, is_ahead, t);
       case BodyKind::mesh:
         break;
@@ -301,7 +305,7 @@ class Walk {
   // True if the body gave a nearer hit. Merged meshes are met in the scene's tree.
   bool visit_body(uint32_t index) {
     const CompiledBody& body = scene_.bodies[index];
-    if (body.kind == BodyKind::mesh)
+    if (is_built_in(Feature::triangles) && body.kind == BodyKind::mesh)
       return visit_tree(*body.tree, index, make_filter_ray(to_local(body, ray_), 0.0, -start_.reach, end()));
     double t = 0.0;
     uint32_t prim = 0;
@@ -329,7 +333,7 @@ class Walk {
         continue;
       }
       const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
-      const bool is_nearer = leaf & TriangleTree::kBodyBit
+      const bool is_nearer = !is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit
                                  ? only_ == kNone && visit_body(leaf & ~TriangleTree::kBodyBit)
                                  : visit_block(tree.blocks[leaf], owner, filter, shear, t_sure, t_max);
       if (!is_nearer) continue;
