@@ -2,7 +2,6 @@
 #include "renderer/render/probe.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <numeric>
@@ -14,13 +13,7 @@
 namespace tilelight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-// Of this thread alone: what others do on the machine is not the render's price.
+// Of this thread alone: what others do on the machine is not the render's price, and does not cut the probe short.
 double cpu_ms() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -66,17 +59,16 @@ void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) 
   const ViewPlan cells = in_cells(plan);
   const EyeMedia eye_media(scene, cells);
   const int width = cells.view.image.width, count = width * cells.view.image.height, stride = golden_stride(count);
-  const auto start = Clock::now();
-  const double cpu_start = cpu_ms();
+  const double start = cpu_ms();
   int64_t rays = 0, place = 0;
   int asked = 0;
-  for (; asked < count && (asked < kAtLeast || ms_since(start) < kEnoughMs);
+  for (; asked < count && (asked < kAtLeast || cpu_ms() - start < kEnoughMs);
        ++asked, place = (place + stride) % count) {
     const int x = static_cast<int>(place % width), y = static_cast<int>(place / width);
     rays += trace(scene, cells, eye_media, {x, y, x + 1, y + 1});
   }
   probe.rays_per_sample = static_cast<double>(rays) / asked;
-  probe.ms_per_ray = (cpu_ms() - cpu_start) / static_cast<double>(rays);
+  probe.ms_per_ray = (cpu_ms() - start) / static_cast<double>(rays);
 }
 
 // Of `places` along an axis, one at random in this part of `parts`.
@@ -108,9 +100,8 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   film.fill_black(kProbeSamples);  // what no spot covers stays so, and differs in nothing
   TileView view = film.view();
   std::vector<int64_t> rays;
-  const auto start = Clock::now();
-  const double cpu_start = cpu_ms();
-  for (int i = 0, part = 0; i < count && (i < kAtLeast || ms_since(start) < kEnoughMs);
+  const double start = cpu_ms();
+  for (int i = 0, part = 0; i < count && (i < kAtLeast || cpu_ms() - start < kEnoughMs);
        ++i, part = (part + stride) % count) {
     const uint64_t random = mix64(static_cast<uint64_t>(part));
     const int x = place_in(part % columns, columns, image.width, random & 0xffff);
@@ -124,7 +115,7 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   }
   const int asked = static_cast<int>(rays.size());
   const double all_rays = std::accumulate(rays.begin(), rays.end(), 0.0);
-  probe.ms_per_ray = (cpu_ms() - cpu_start) / all_rays;
+  probe.ms_per_ray = (cpu_ms() - start) / all_rays;
   if (asked == count) probe.rays_per_sample = all_rays / (static_cast<double>(asked) * kProbeSamples);
   for (const int64_t r : rays) probe.costs.push_back(static_cast<double>(r) * asked / all_rays);
   probe.image_part = static_cast<double>(asked) / (static_cast<double>(image.width) * image.height);

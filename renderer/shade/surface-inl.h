@@ -128,7 +128,8 @@ HWY_INLINE Of3<R> checker_color(const Checker& checker, const CompiledBody& body
     // Of axes that rounding cannot tell apart (facets at 45 degrees) the first counts.
     const R x = magnitude(p.geometric.x), y = magnitude(p.geometric.y), z = magnitude(p.geometric.z);
     const R nearly = R(1.0 - 0x1p-20) * greater(greater(x, y), z);
-    const auto is_x = x >= nearly, is_y = (!is_x) & (y >= nearly);
+    const auto is_x = x >= nearly;
+    const auto is_y = (!is_x) & (y >= nearly);
     counts = {select(is_x, none, one), select(is_y, none, one), select(is_x | is_y, one, none)};
   }
   const R cells =
