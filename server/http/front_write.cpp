@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "server/http/front.h"
 
@@ -142,8 +143,8 @@ void Front::discard(Connection& c) {
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) close_connection(c.id);
 }
 
-// Over the budget the largest responses go whose readers are slow. False: that was not enough, and the new one must be
-// given up; clients that read briskly are not cut off for its sake.
+// Over the budget the largest responses go whose readers are slow, of equal ones the oldest. False: that was not
+// enough, and the new one must be given up; clients that read briskly are not cut off for its sake.
 bool Front::make_unread_room() {
   const double now = now_ms();
   while (unread_.bytes() > options_.max_unread_bytes) {
@@ -151,7 +152,8 @@ bool Front::make_unread_room() {
     for (const auto& [id, c] : connections_) {
       if (c->phase != Phase::writing || c->out.size() < kSmallBytes) continue;
       if (static_cast<double>(c->written) >= (now - c->since_ms) * options_.brisk_bytes_per_ms) continue;
-      if (!largest || c->out.size() > largest->out.size()) largest = c.get();
+      const auto rank = [](const Connection& x) { return std::pair(x.out.size(), -x.since_ms); };
+      if (!largest || rank(*c) > rank(*largest)) largest = c.get();
     }
     if (!largest) return false;
     close_connection(largest->id);

@@ -93,7 +93,10 @@ TEST(Front, CutsOffResponsesThatNobodyReadsWhereOthersNeedTheMemory) {
   options.write_timeout_ms = 1e6;  // not what ends them
   OwnFront front(options);
   std::vector<std::unique_ptr<HttpClient>> idle;
-  for (int i = 0; i < 6; ++i) idle.push_back(front.client(kGetLarge));
+  for (int i = 0; i < 6; ++i) {
+    idle.push_back(front.client(kGetLarge));
+    EXPECT_EQ(idle.back()->skip(1), 1u) << "a response that has begun is older than those that follow";
+  }
   EXPECT_EQ(front.client(kGetLarge)->read().body.size(), kLarge);
   EXPECT_TRUE(comes_true([&] { return front->connection_count() <= 2; }));
 }
