@@ -199,15 +199,16 @@ void add_contrasts(const std::array<const ShownRow*, 3>& rows, const float* coun
 void spread_row(const Neighbourhood& around, size_t pixels, float scale, float* variances) {
   std::array<float, kRunPx> contrast;
   add_contrasts(around.shown, around.count.data(), pixels, contrast.data());
-  const float *const above = around.own[0], *const here = around.own[1], *const below = around.own[2];
+  // Each from the pixel before the first on.
+  const float *const above = around.own[0] - 1, *const here = around.own[1] - 1, *const below = around.own[2] - 1;
   std::array<float, kRunPx> sums;
   for (size_t i = 0; i < pixels; ++i) {
-    sums[i] = above[i - 1] + above[i] + above[i + 1] + here[i - 1] + here[i] + here[i + 1] + below[i - 1] + below[i] +
-              below[i + 1];
+    sums[i] = above[i] + above[i + 1] + above[i + 2] + here[i] + here[i + 1] + here[i + 2] + below[i] + below[i + 1] +
+              below[i + 2];
   }
   for (size_t i = 0; i < pixels; ++i) {
     // The only pixel of an image has no neighbours, and no contrast.
-    const float others = around.count[i] - 1.0f, own = here[i];
+    const float others = around.count[i] - 1.0f, own = here[i + 1];
     const float neighbours = others > 0.0f ? (sums[i] - own) / others : own;
     const float mean_contrast = others > 0.0f ? contrast[i] / (3.0f * 255.0f * 255.0f * others) : 0.0f;
     const float seen = scale * (own + kNeighbours * (neighbours - own));

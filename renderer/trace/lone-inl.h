@@ -49,10 +49,12 @@ struct LoneRay {
 // What a lane visits next, a node or a block; which of them is hard to predict. A body's number leads nowhere.
 HWY_INLINE void prefetch_any(const TriangleTree& tree, uint32_t reference) {
   const bool is_leaf = reference & WideBvh::kLeafBit;
-  const auto* base =
-      is_leaf ? reinterpret_cast<const char*>(tree.blocks.data()) : reinterpret_cast<const char*>(tree.nodes.data());
-  base += size_t{reference & ~WideBvh::kLeafBit} * (is_leaf ? sizeof(TriangleBlock) : sizeof(WideBvh::Node));
-  for (size_t line = 0; line < sizeof(TriangleBlock); line += 64) hwy::Prefetch(base + line);
+  // A whole number, for it may point nowhere.
+  auto place =
+      is_leaf ? reinterpret_cast<uintptr_t>(tree.blocks.data()) : reinterpret_cast<uintptr_t>(tree.nodes.data());
+  place += uintptr_t{reference & ~WideBvh::kLeafBit} * (is_leaf ? sizeof(TriangleBlock) : sizeof(WideBvh::Node));
+  for (uintptr_t line = 0; line < sizeof(TriangleBlock); line += 64)
+    hwy::Prefetch(reinterpret_cast<const char*>(place + line));
 }
 
 #if HWY_MAX_BYTES >= 32
