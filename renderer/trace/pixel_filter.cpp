@@ -69,16 +69,4 @@ SamplePoint place_sample(const RenderSpec& spec, int x, int y, uint32_t index) {
   return {std::floor(p.x * kSubpixels) / kSubpixels, std::floor(p.y * kSubpixels) / kSubpixels};
 }
 
-void place_cell(const RenderSpec& spec, const TileRect& rect, uint32_t index, ImagePoints& points) {
-  size_t at = points.size();
-  points.x.resize(at + static_cast<size_t>(rect.pixel_count()));
-  points.y.resize(points.x.size());
-  const bool is_plain = spec.filter == PixelFilter::box && !is_tessellated(spec);
-  for_each_pixel(rect, [&](int x, int y) {
-    const SamplePoint p = is_plain ? sample_point(x, y, spec.seed, index) : place_sample(spec, x, y, index);
-    points.x[at] = x + p.x, points.y[at] = y + p.y;
-    ++at;
-  });
-}
-
 }  // namespace tilelight
