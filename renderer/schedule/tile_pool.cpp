@@ -233,7 +233,8 @@ void TilePool::parallel_for(int64_t count, Priority priority, const std::functio
   loop->run();
   // Only for indices that some thread is running: a helper still in the queue holds none.
   loop->left.wait();
-  if (loop->error) std::rethrow_exception(loop->error);
+  // Taken along: a helper that is late frees the loop, but nothing that the caller reads.
+  if (loop->error) std::rethrow_exception(std::exchange(loop->error, nullptr));
 }
 
 }  // namespace tilelight
