@@ -48,14 +48,27 @@ const Curve& curve() {
   return the_curve;
 }
 
-// By level, the sum of the squared half differences of the row's blocks, linear; and what variance of the mean they
-// make if an edge crosses.
+// Squares of light have to stay in a float's range, however bright a scene is. So a channel's light is taken in units
+// of a power of two, which changes no digit: near the display's white, and larger for what is far brighter.
+using Units = std::array<float, ChannelRow().size()>;
+void choose_units(const float* mean, size_t channels, double exposure, Units& units) {
+  // Light that a float holds comes to no display beyond these by squares that overflow or vanish.
+  constexpr int kMostOctaves = 90, kBlindingOctaves = 40;
+  const double white = std::ldexp(1.0, std::clamp(std::ilogb(exposure), -kMostOctaves, kMostOctaves));
+  const double blinding = std::ldexp(1.0, kBlindingOctaves) / white;
+  for (size_t i = 0; i < channels; ++i)
+    units[i] = static_cast<float>(mean[i] > blinding ? std::ldexp(1.0, kBlindingOctaves - std::ilogb(mean[i])) : white);
+}
+
+// By level, the sum of the squared half differences of the row's blocks, in units; and what variance of the
+// mean they make if an edge crosses.
 struct Differences {
   std::array<ChannelRow, kErrorLevels> levels;
   ChannelRow variance;
 };
 
-void find_differences(const SamplePlanes& planes, size_t channels, const ErrorRule& rule, Differences& out) {
+void find_differences(const SamplePlanes& planes, size_t channels, const ErrorRule& rule, const Units& units,
+                      Differences& out) {
   std::array<ChannelRow, kSampleBlocks / 2> joined;  // two and two
   std::array<const float*, kSampleBlocks> blocks;
   std::copy(planes.begin(), planes.end(), blocks.begin());
@@ -66,7 +79,7 @@ void find_differences(const SamplePlanes& planes, size_t channels, const ErrorRu
     for (size_t pair = 0; pair < rule.pairs.at(static_cast<int>(level)); ++pair) {
       const float *const one = blocks[2 * pair], *const other = blocks[2 * pair + 1];
       for (size_t i = 0; i < channels; ++i) {
-        const float half = rule.half_block[level] * (one[i] - other[i]);
+        const float half = rule.half_block[level] * units[i] * (one[i] - other[i]);
         of_level[i] += half * half;
       }
       // Read before they are written over: they become the first of the next level's.
@@ -124,34 +137,38 @@ void show_row(const float* mean, size_t channels, double exposure, ChannelRow& s
 // black it goes down much farther than up.
 void measure_row(const SamplePlanes& planes, const float* mean, size_t channels, double exposure, const ErrorRule& rule,
                  const ChannelRow& shown, RowVariances& out) {
+  Units units;
+  choose_units(mean, channels, exposure, units);
   Differences differences;
-  find_differences(planes, channels, rule, differences);
+  find_differences(planes, channels, rule, units, differences);
   out.count = 0;
   for (size_t i = 0; i < channels; ++i) {
     out.channel[out.count] = static_cast<uint8_t>(i);
     out.count += differences.variance[i] > 0.0f;
   }
   const size_t count = out.count;
-  std::array<double, ChannelRow().size()> linear, reach, down, up;
+  std::array<double, ChannelRow().size()> linear, shown_unit, reach, least, down, up;
   std::array<float, ChannelRow().size()> variance, middle, low, high;
   for (size_t k = 0; k < count; ++k) {
     const size_t i = out.channel[k];
     variance[k] = differences.variance[i];
-    linear[k] = mean[i];
+    linear[k] = double{units[i]} * mean[i];
+    shown_unit[k] = exposure / units[i];
     middle[k] = shown[i];
   }
-  const double deviation2 = rule.deviation2, least = 0x1p-12 / exposure;
+  const double deviation2 = rule.deviation2;
   for (size_t k = 0; k < count; ++k) {
-    reach[k] = std::max(std::sqrt(deviation2 * variance[k]), least);
-    down[k] = exposure * (linear[k] - reach[k]);
-    up[k] = exposure * (linear[k] + reach[k]);
+    least[k] = 0x1p-12 / shown_unit[k];
+    reach[k] = std::max(std::sqrt(deviation2 * variance[k]), least[k]);
+    down[k] = shown_unit[k] * (linear[k] - reach[k]);
+    up[k] = shown_unit[k] * (linear[k] + reach[k]);
   }
   curve()(down.data(), count, low.data());
   curve()(up.data(), count, high.data());
   std::array<float, ChannelRow().size()> ratio;  // of the deviation to the reach
   std::fill_n(ratio.begin(), count, rule.ratio.value_or(0.0f));
   for (size_t k = 0; k < count; ++k) {
-    const bool is_known = rule.ratio && reach[k] > least && reach[k] < INFINITY;
+    const bool is_known = rule.ratio && reach[k] > least[k];
     if (!is_known) ratio[k] = static_cast<float>(std::sqrt(double{variance[k]}) / reach[k]);
   }
   for (size_t k = 0; k < count; ++k) {

@@ -99,7 +99,6 @@ TEST(ErrorMap, KnowsNothingOfASingleSampleAndTheTruthOfAConstant) {
   EXPECT_EQ(summary.unconverged, 0);
 }
 
-// Where all is clamped to white, whatever is wrong does not show.
 TEST(ErrorMap, BoundsASingleSampleByWhatItsNeighboursShow) {
   for (const auto& [width, height] : {std::pair(1, 1), {2, 1}, {1, 5}, {5, 3}, {37, 9}, {70, 41}}) {
     Film film(width, height);
@@ -151,6 +150,45 @@ TEST(ErrorMap, SaysTheSameHoweverTheImageIsCut) {
   }
 }
 
+// Powers of two change no digit of light, so the same picture is shown; squares of such light no float holds.
+TEST(ErrorMap, TellsTheSameOfLightAsBrightAsItsExposureIsDark) {
+  const auto told = [](int stops, double least) {
+    Film film(40, 40);
+    take(film, all_of(film), 13, 1, [&](double x, double y) {
+      return static_cast<float>(std::ldexp(std::hypot(x - 20.0, y - 17.0) < 9.3 ? 0.8 : least, stops));
+    });
+    ErrorMap map(40, 40, -stops);
+    map.measure(film, resolved(film), all_of(film));
+    map.pool(film);
+    map.spread(film, all_of(film));
+    return map;
+  };
+  const ErrorMap plain = told(0, 0.1);
+  EXPECT_GT(plain.summary().rmse, 0.005);
+  for (const int stops : {-100, -70, 60, 95}) {
+    const ErrorMap same = told(stops, 0.1);
+    EXPECT_EQ(same.summary().rmse, plain.summary().rmse) << stops;
+    EXPECT_EQ(same.bounds(), plain.bounds()) << stops;
+  }
+}
+
+// A pixel that an edge of blinding light crosses is white or black, and the light as bright as it may be.
+TEST(ErrorMap, TellsAFiniteErrorOfBlindingLight) {
+  const auto told = [](double light) {
+    Film film(40, 40);
+    take(film, all_of(film), 16, 1,
+         [&](double x, double y) { return static_cast<float>(x + 0.3 * y < 21.7 ? light : 0.0); });
+    return map_of(film, resolved(film)).summary().rmse;
+  };
+  const double bright = told(1e9);
+  EXPECT_GT(bright, 1e-3);
+  for (const double light : {1e17, 1e21, 1e25, 9e33}) {
+    EXPECT_GT(told(light), 0.5 * bright) << light;
+    EXPECT_LT(told(light), 2.0 * bright) << light;
+  }
+}
+
+// Where all is clamped to white, whatever is wrong does not show.
 TEST(ErrorMap, CountsWhatIsDisplayed) {
   const Shade lines = [](double x, double) { return std::fmod(x, 1.0) < 0.3 ? 2.0f : 8.0f; };
   Film film(16, 16);
