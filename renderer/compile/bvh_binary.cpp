@@ -12,8 +12,8 @@ namespace tilelight {
 namespace {
 
 constexpr uint32_t kMostBins = 16;
-// Under this depth the split falls back to halves by index, so the tree never gets deeper than about 64 levels, also
-// for a hundred thousand equal boxes.
+// Under this depth the split falls back to halves by index, so a tree of 2^26 boxes is at most 66 levels deep, also
+// where all of them are equal.
 constexpr int kMaxSahDepth = 40;
 // A leaf is split only if that takes this share of its cost away: small leaves cost memory, and nodes above them.
 constexpr float kWorth = 0.5f;

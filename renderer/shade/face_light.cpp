@@ -37,9 +37,7 @@ FaceLight::FaceLight(const CompiledScene& scene, Shading shading, bool smooth_te
     : scene_(scene), shading_(shading), smooth_terminator_(smooth_terminator) {
   if (shading == Shading::phong) return;
   constexpr size_t kBytes = 1 << 18;  // beside rays and hits in L2
-  constexpr size_t kMostFaces = 256;
-  const size_t face_bytes = sizeof(Face) + kMostCorners * sizeof(Brought) * scene.lights.size();
-  kept_.resize(std::bit_floor(std::clamp<size_t>(kBytes / face_bytes, 1, kMostFaces)));
+  kept_.resize(std::bit_floor(kBytes / sizeof(Face)));
 }
 
 int FaceLight::corners_of(const CompiledBody& body) const {
@@ -72,9 +70,7 @@ std::array<double, FaceLight::kMostCorners> FaceLight::weights_of(const Compiled
 
 // The viewer and not the ray says which side of a face is seen: rays that pass just beside a face seen nearly edge on
 // meet its plane on both sides of him, and what is kept must not depend on which came first.
-void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, std::span<const CompiledLight> lights,
-                              std::vector<Brought>& brought) const {
-  brought.clear();
+void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, const CompiledLight& light, Corners& brought) const {
   const CompiledBody& body = scene_.bodies[hit.body];
   const int corners = corners_of(body);
   LocalPoint middle = corner(body, hit.prim, 0);
@@ -86,20 +82,19 @@ void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, std::span<cons
     Surface at = make_surface_at(scene_, seen, hit, corner(body, hit.prim, i));
     at.diffuse = Color(1.0);
     const bool is_rounded = shading_ != Shading::flat && at.is_rounded && smooth_terminator_;
-    for (const CompiledLight& light : lights) {
-      const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_rounded);
-      brought.push_back({sample.arriving, sample.diffuse, sample.specular, sample.is_lit});
-    }
+    const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_rounded);
+    brought[static_cast<size_t>(i)] = {sample.arriving, sample.diffuse, sample.specular, sample.is_lit};
   }
 }
 
-const FaceLight::Face& FaceLight::kept_face(const Hit& hit, const Vec4& viewer) {
-  Face& face = kept_[mix64(static_cast<uint64_t>(hit.body) << 32 | hit.prim) & (kept_.size() - 1)];
-  if (face.body != hit.body || face.prim != hit.prim) {
-    face.body = hit.body, face.prim = hit.prim;
-    light_corners(hit, viewer, scene_.lights, face.brought);
+const FaceLight::Corners& FaceLight::kept_corners(const Hit& hit, const Vec4& viewer, size_t light) {
+  const uint64_t name = static_cast<uint64_t>(hit.body) << 32 | hit.prim;
+  Face& face = kept_[mix64(mix64(name) + light) & (kept_.size() - 1)];
+  if (face.body != hit.body || face.prim != hit.prim || face.light != light) {
+    face.body = hit.body, face.prim = hit.prim, face.light = light;
+    light_corners(hit, viewer, scene_.lights[light], face.brought);
   }
-  return face;
+  return face.brought;
 }
 
 LightSample FaceLight::sample(const Hit& hit, const Surface& surface, const Vec4& viewer, bool is_primary,
@@ -109,20 +104,14 @@ LightSample FaceLight::sample(const Hit& hit, const Surface& surface, const Vec4
   const LightWay way = way_to_light(scene_.lights[light], surface.position);
   out.to_light = way.to_light, out.distance = way.distance;
   if (!(way.distance > 0.0)) return out;
-  const Brought* brought = nullptr;
-  size_t step = 1;
-  if (is_primary) {
-    brought = &kept_face(hit, viewer).brought[light], step = scene_.lights.size();
-  } else {
-    light_corners(hit, viewer, {&scene_.lights[light], 1}, brought_);
-    brought = brought_.data();
-  }
+  if (!is_primary) light_corners(hit, viewer, scene_.lights[light], brought_);
+  const Corners& brought = is_primary ? kept_corners(hit, viewer, light) : brought_;
   const auto weights = weights_of(body, hit, surface.position);
-  for (int i = 0; i < corners_of(body); ++i, brought += step) {
-    out.is_lit |= brought->is_lit;
-    out.arriving += weights[i] * brought->arriving;
-    out.diffuse += weights[i] * brought->diffuse;
-    out.specular += weights[i] * brought->specular;
+  for (size_t i = 0; i < static_cast<size_t>(corners_of(body)); ++i) {
+    out.is_lit |= brought[i].is_lit;
+    out.arriving += weights[i] * brought[i].arriving;
+    out.diffuse += weights[i] * brought[i].diffuse;
+    out.specular += weights[i] * brought[i].specular;
   }
   out.diffuse *= surface.diffuse;
   return out;

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "renderer/shade/light_equation.h"
@@ -30,24 +29,24 @@ class FaceLight {
     Color arriving{0.0}, diffuse{0.0}, specular{0.0};  // by one light, to one corner
     bool is_lit = false;
   };
+  using Corners = std::array<Brought, kMostCorners>;
   struct Face {
     uint32_t body = kNone, prim = kNone;
-    std::vector<Brought> brought;  // by corner, and by light
+    size_t light = 0;
+    Corners brought;  // by that light
   };
 
   int corners_of(const CompiledBody& body) const;
   LocalPoint corner(const CompiledBody& body, uint32_t prim, int index) const;
   std::array<double, kMostCorners> weights_of(const CompiledBody& body, const Hit& hit, const Vec3& position) const;
-  // By corner, and by light.
-  void light_corners(const Hit& hit, const Vec4& viewer, std::span<const CompiledLight> lights,
-                     std::vector<Brought>& brought) const;
-  const Face& kept_face(const Hit& hit, const Vec4& viewer);
+  void light_corners(const Hit& hit, const Vec4& viewer, const CompiledLight& light, Corners& brought) const;
+  const Corners& kept_corners(const Hit& hit, const Vec4& viewer, size_t light);
 
   const CompiledScene& scene_;
   const Shading shading_;
   const bool smooth_terminator_;
-  std::vector<Face> kept_;        // by a hash of the face; primary rays alone have one viewer
-  std::vector<Brought> brought_;  // to what another viewer looks at
+  std::vector<Face> kept_;  // by a hash of the face and the light; primary rays alone have one viewer
+  Corners brought_;         // to what another viewer looks at
 };
 
 }  // namespace tilelight

@@ -36,15 +36,19 @@ Vec3 mirror_direction(const Surface& surface, const Vec3& incoming) {
       mirror_direction_at(of<double>(surface.normal), of<double>(surface.geometric_normal), of<double>(incoming)));
 }
 
-Scatter scatter_opaque(const Surface& surface, const Vec3& incoming) {
+namespace {
+
+Scatter mirror_alone(const Surface& surface, const Vec3& incoming) {
   Scatter out;
   out.mirrored = mirror_direction(surface, incoming);
   out.mirror_weight = surface.material->source.reflection;
   return out;
 }
 
+}  // namespace
+
 Scatter scatter_thin(const Surface& surface, const Vec3& incoming) {
-  Scatter out = scatter_opaque(surface, incoming);
+  Scatter out = mirror_alone(surface, incoming);
   out.refracted = incoming;
   out.refract_weight = surface.material->source.transmission;
   return out;
@@ -58,7 +62,7 @@ Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double
     if (m.fresnel) out.mirror_weight = Color(0.0);
     return out;
   }
-  Scatter out = scatter_opaque(surface, incoming);
+  Scatter out = mirror_alone(surface, incoming);
   // A shading normal turned from the viewer has no incoming side: fall back to the geometric one.
   Vec3 n = glm::dot(incoming, surface.normal) < 0.0 ? surface.normal : surface.geometric_normal;
   Refraction bent = refract(incoming, n, eta);

@@ -14,9 +14,6 @@ struct Scatter {
   Color mirror_weight{0.0}, refract_weight{0.0};
 };
 
-// A surface that only reflects: kr.
-Scatter scatter_opaque(const Surface& surface, const Vec3& incoming);
-
 // A transparent surface without an inside: kr, and kt straight on.
 Scatter scatter_thin(const Surface& surface, const Vec3& incoming);
 

@@ -88,7 +88,7 @@ struct StackEntry {
   uint32_t node;
   float t;
 };
-// Eight entries a level of a tree that is at most 66 levels deep (bvh.cpp).
+// Eight entries a level of a tree that is at most 66 levels deep (compile/bvh_binary.cpp).
 inline constexpr int kStackSize = 8 * 68;
 
 // A node that a walk will open, which lies in four lines of the cache.

@@ -125,7 +125,7 @@ class Bench {
 }  // namespace tilelight::bench
 
 int main(int argc, char** argv) {
-  CLI::App app{"What leaving out saves: the chosen kernel beside the one that can do everything"};
+  CLI::App app{"What leaving out saves: the chosen kernel beside those that can do more"};
   std::vector<std::string> paths;
   int rounds = 5, threads = 0;
   app.add_option("scenes", paths, "Scene files; else those of web/scenes")->check(CLI::ExistingFile);

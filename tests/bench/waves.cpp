@@ -43,8 +43,8 @@ void follow_tile(const CompiledScene& scene, const ViewPlan& plan, const TileRec
             {{surface.position, sample.to_light, surface.here, Coincident::before}, sample.distance * (1.0 - 0x1p-40)});
       }
       if (depth == plan.view.render.max_depth || !surface.material->is_reflective) continue;
-      const Scatter out = scatter_opaque(surface, rays[i].ray.direction);
-      next.push_back({{surface.position, out.mirrored, surface.here, Coincident::before}});
+      const Vec3 mirrored = mirror_direction(surface, rays[i].ray.direction);
+      next.push_back({{surface.position, mirrored, surface.here, Coincident::before}});
     }
     for (const Batch& beam : beams) {
       if (!beam.empty()) keep(depth, true, beam);

@@ -117,14 +117,26 @@ TEST_F(Reaches, TheMediumInWhichTheEyeStands) {
 }
 
 TEST_F(Reaches, ABodyOnThePicturesBorder) {
-  // The picture's upper border is a plane through the eye, at 20 degrees: the sphere's centre lies 5 away from it on
-  // that normal, and the sphere just meets it or just does not. A pixel is 0.015 there.
+  // The picture's upper border is a plane through the eye, at 20 degrees, so that 2 before it the border lies this
+  // high. A pixel is 0.015 there. Of the box the lower edge away from the eye comes nearest.
+  const double border = 2.0 * 0.3639702;
+  const auto box = [&](double above) {
+    const std::string lo = std::to_string(border + above), hi = std::to_string(border + above + 0.1);
+    return R"({"type": "box", "min": [-0.1, )" + lo + R"(, -2], "max": [0.1, )" + hi +
+           R"(, -1.9], "material": "mirror"})";
+  };
+  EXPECT_TRUE(plan(std::string(kBall) + ", " + box(-0.01)).has(Feature::reflection));
+  EXPECT_FALSE(plan(std::string(kBall) + ", " + box(0.065)).has(Feature::reflection));
+}
+
+TEST_F(Reaches, ASphereOnThePicturesBorder) {
   const auto sphere = [](double radius) {
     return R"({"type": "sphere", "center": [0, 5.06, -2], "radius": )" + std::to_string(radius) +
            R"(, "material": "mirror"})";
   };
-  const double away = 5.06 * 0.9396926 - 2 * 0.3420201;  // 4.0708
+  const double away = 5.06 * 0.9396926 - 2 * 0.3420201;  // of the centre from that border: 4.07
   EXPECT_TRUE(plan(std::string(kBall) + ", " + sphere(away + 0.01)).has(Feature::reflection));
+  // Asked is the box around it, whose corner reaches farther.
   EXPECT_FALSE(plan(std::string(kBall) + ", " + sphere(0.75 * away)).has(Feature::reflection));
 }
 
