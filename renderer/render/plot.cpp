@@ -18,6 +18,13 @@ constexpr int kMostListed = 16;  // curves in the legend
 // Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008).
 constexpr std::array<const char*, 7> kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000"};
+// When the colours come again, lines are dashed, then dotted.
+constexpr std::array<const char*, 3> kDashes{"", " stroke-dasharray=\"7 3\"", " stroke-dasharray=\"2 3\""};
+
+std::string color_of(size_t curve) { return kColors[curve % kColors.size()]; }
+std::string stroke_of(size_t curve) {
+  return " stroke=\"" + color_of(curve) + "\"" + kDashes[curve / kColors.size() % kDashes.size()];
+}
 
 double log10_of(double v) { return elementary::log2(v) / 3.321928094887362; }
 
@@ -105,7 +112,8 @@ std::string line(double x1, double y1, double x2, double y2, const char* stroke)
 
 bool is_shown(const PlotPoint& p) { return p.x > 0.0 && p.y > 0.0 && std::isfinite(p.x) && std::isfinite(p.y); }
 
-std::string draw_curve(const PlotCurve& curve, const Axis& x, const Axis& y, const std::string& color) {
+std::string draw_curve(const PlotCurve& curve, const Axis& x, const Axis& y, size_t index) {
+  const std::string color = color_of(index);
   std::string path, upper, lower, marks;
   for (const PlotPoint& p : curve.points) {
     if (!is_shown(p)) continue;
@@ -123,7 +131,7 @@ std::string draw_curve(const PlotCurve& curve, const Axis& x, const Axis& y, con
   }
   std::string out;
   if (!upper.empty()) out += "<path d=\"" + upper + lower + " Z\" fill=\"" + color + "\" opacity=\"0.15\"/>\n";
-  out += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"1.8\"/>\n";
+  out += "<path d=\"" + path + "\" fill=\"none\"" + stroke_of(index) + " stroke-width=\"1.8\"/>\n";
   return out + marks;
 }
 
@@ -160,11 +168,11 @@ std::string plot_svg(const Plot& plot) {
   const double middle = 0.5 * (kTop + kHeight - kBottom);
   out +=
       text_at(20.0, middle, plot.y_label, "text-anchor=\"middle\" transform=\"rotate(-90 20 " + number(middle) + ")\"");
-  for (size_t i = 0; i < plot.curves.size(); ++i) out += draw_curve(plot.curves[i], x, y, kColors[i % kColors.size()]);
+  for (size_t i = 0; i < plot.curves.size(); ++i) out += draw_curve(plot.curves[i], x, y, i);
   for (size_t i = 0; i < std::min<size_t>(kMostListed, plot.curves.size()) && legend > 0.0; ++i) {
     const double at = kHeight + 14.0 * static_cast<double>(i);
-    out += "<rect x=\"" + number(kLeft) + "\" y=\"" + number(at - 9.0) + "\" width=\"18\" height=\"4\" fill=\"" +
-           kColors[i % kColors.size()] + "\"/>\n";
+    out += "<path d=\"M" + number(kLeft) + "," + number(at - 7.0) + " h18\" fill=\"none\"" + stroke_of(i) +
+           " stroke-width=\"4\"/>\n";
     out += text_at(kLeft + 26.0, at - 3.0, plot.curves[i].name, "fill=\"#222222\"");
   }
   return out + "</svg>\n";
