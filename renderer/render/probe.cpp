@@ -71,6 +71,24 @@ void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) 
   probe.ms_per_ray = (cpu_ms() - start) / static_cast<double>(rays);
 }
 
+// What a ray costs among its neighbours: blocks all over the image, each of as many samples as a kernel takes at a
+// time. A pixel alone pays too much for setting out.
+void ask_blocks(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
+  constexpr double kEnoughMs = 10.0, kBlockMs = 3.0;
+  constexpr int kBlockPx = 2 * kCellPx, kBlocks = 32;
+  constexpr uint32_t kSamples = 4;
+  if (kBlockPx * kBlockPx * kSamples * probe.rays_per_sample * probe.ms_per_ray > kBlockMs) return;
+  const ImageSpec& image = plan.view.image;
+  const int count = tile_count(image.width, image.height, kBlockPx), stride = golden_stride(count);
+  const EyeMedia eye_media(scene, plan);
+  const double start = cpu_ms();
+  int64_t rays = 0, block = 0;
+  for (int i = 0; i < std::min(count, kBlocks) && cpu_ms() - start < kEnoughMs; ++i, block = (block + stride) % count)
+    rays += trace(scene, plan, eye_media, tile_rect(static_cast<int>(block), image.width, image.height, kBlockPx),
+                  nullptr, kSamples);
+  probe.ms_per_ray = (cpu_ms() - start) / static_cast<double>(rays);
+}
+
 // Of `places` along an axis, one at random in this part of `parts`.
 int place_in(int part, int parts, int places, uint64_t bits) {
   const int64_t first = int64_t{part} * places / parts, end = int64_t{part + 1} * places / parts;
@@ -78,8 +96,7 @@ int place_in(int part, int parts, int places, uint64_t bits) {
 }
 
 // Single pixels, each at a random place of its own part of the image. On a film of their own they stand side by side, a
-// cell for each: the view is shifted so that a pixel sees what it would see in the image. The samples of a pixel fill a
-// packet, so that they cost what they will cost in the render.
+// cell for each: the view is shifted so that a pixel sees what it would see in the image.
 void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   constexpr double kEnoughMs = 20.0, kSpotMs = 3.0;
   constexpr int kAtLeast = 8, kMostSpots = 768;
@@ -137,6 +154,7 @@ Probe probe_view(const CompiledScene& scene, const ViewPlan& plan) {
   Probe probe;
   ask_pixels(scene, plan, probe);
   ask_spots(scene, plan, probe);
+  ask_blocks(scene, plan, probe);
   return probe;
 }
 
