@@ -118,7 +118,8 @@ TEST_F(Reaches, TheMediumInWhichTheEyeStands) {
 
 TEST_F(Reaches, ABodyOnThePicturesBorder) {
   // The picture's upper border is a plane through the eye, at 20 degrees, so that 2 before it the border lies this
-  // high. A pixel is 0.015 there. Of the box the lower edge away from the eye comes nearest.
+  // high. A pixel is 0.0303 there, and two are left for the filter. Of the box the lower edge away from the eye comes
+  // nearest.
   const double border = 2.0 * 0.3639702;
   const auto box = [&](double above) {
     const std::string lo = std::to_string(border + above), hi = std::to_string(border + above + 0.1);
