@@ -15,18 +15,23 @@ HWY_BEFORE_NAMESPACE();
 namespace tilelight {
 namespace HWY_NAMESPACE {
 
-// A lane's numbers, together, and what is left for it to visit.
+// What is left for a lane to visit, and where it enters it.
+struct LoneEntry {
+  uint32_t node;
+  float t;
+};
+
+// A lane's numbers, together.
 struct LoneRay {
   float inverse[3], scaled[3];  // a plane p is met at p * inverse - scaled
   int near_at[3], far_at[3];    // where a node's near and far planes lie, among its bounds
   int kx, ky, kz;               // kz: of the longest component, so that no slope exceeds 1
   float ox, oy, oz, sx, sy, sz;
   float t_min, tie;
-  int top;  // of the stack
-  uint32_t node[kStackSize + 8];
-  float t[kStackSize + 8];  // where the ray enters these nodes; the nearest are at the top
+  LoneEntry* stack;  // the nearest are at the top
+  int top;
 
-  void set(const PacketRays& rays, size_t lane) {
+  void set(const PacketRays& rays, size_t lane, LoneEntry* room) {
     t_min = rays.t_min[lane], tie = rays.tie[lane];
     const float d[3] = {rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,18 +46,23 @@ struct LoneRay {
     kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
     ox = rays.origin[kx][lane], oy = rays.origin[ky][lane], oz = rays.origin[kz][lane];
     sz = inverse[kz], sx = d[kx] * sz, sy = d[ky] * sz;
-    top = 0;
+    stack = room, top = 0;
   }
-  void push(uint32_t what, float at) { node[top] = what, t[top++] = at; }
+  void push(uint32_t what, float at) { stack[top++] = {what, at}; }
 };
 
+// Where nodes and blocks lie.
+struct TreePlaces {
+  uintptr_t start[2], size[2];  // of nodes, of blocks
+  explicit TreePlaces(const TriangleTree& tree)
+      : start{reinterpret_cast<uintptr_t>(tree.nodes.data()), reinterpret_cast<uintptr_t>(tree.blocks.data())},
+        size{sizeof(WideBvh::Node), sizeof(TriangleBlock)} {}
+};
 // What a lane visits next, a node or a block; which of them is hard to predict. A body's number leads nowhere.
-HWY_INLINE void prefetch_any(const TriangleTree& tree, uint32_t reference) {
-  const bool is_leaf = reference & WideBvh::kLeafBit;
+HWY_INLINE void prefetch_any(const TreePlaces& places, uint32_t reference) {
+  const uint32_t is_leaf = reference >> 31;
   // A whole number, for it may point nowhere.
-  auto place =
-      is_leaf ? reinterpret_cast<uintptr_t>(tree.blocks.data()) : reinterpret_cast<uintptr_t>(tree.nodes.data());
-  place += uintptr_t{reference & ~WideBvh::kLeafBit} * (is_leaf ? sizeof(TriangleBlock) : sizeof(WideBvh::Node));
+  const uintptr_t place = places.start[is_leaf] + uintptr_t{reference & ~WideBvh::kLeafBit} * places.size[is_leaf];
   for (uintptr_t line = 0; line < sizeof(TriangleBlock); line += 64)
     hwy::Prefetch(reinterpret_cast<const char*>(place + line));
 }
@@ -88,14 +98,14 @@ HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& r
   HWY_ALIGN float entry[WideBvh::kWidth];
   uint32_t mask = 0;
   for (size_t i = 0; i < WideBvh::kWidth; i += kLanes) {
-    const auto at = [&](int axis, int place) HWY_ATTR {
+    const auto planes = [&](int axis, int place) HWY_ATTR {
       return hn::MulSub(hn::Load(tag, bounds + place + i), hn::Set(tag, ray.inverse[axis]),
                         hn::Set(tag, ray.scaled[axis]));
     };
-    const auto near = hn::Max(hn::Max(at(0, ray.near_at[0]), at(1, ray.near_at[1])),
-                              hn::Max(at(2, ray.near_at[2]), hn::Set(tag, ray.t_min)));
-    const auto far = hn::Min(hn::Min(at(0, ray.far_at[0]), at(1, ray.far_at[1])),
-                             hn::Min(at(2, ray.far_at[2]), hn::Set(tag, t_max)));
+    const auto near = hn::Max(hn::Max(planes(0, ray.near_at[0]), planes(1, ray.near_at[1])),
+                              hn::Max(planes(2, ray.near_at[2]), hn::Set(tag, ray.t_min)));
+    const auto far = hn::Min(hn::Min(planes(0, ray.far_at[0]), planes(1, ray.far_at[1])),
+                             hn::Min(planes(2, ray.far_at[2]), hn::Set(tag, t_max)));
     const auto is_met = hn::Le(near, far);
 #if HWY_MAX_BYTES >= 32
     // No branches: how many boxes a ray meets is hard to predict. The order is that of the distances' bits, of which
@@ -110,9 +120,9 @@ HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& r
     } else {
       order = hn::Compress(places, hn::RebindMask(int_tag, is_met));
     }
-    hn::StoreU(hn::TableLookupLanes(hn::Load(int_tag, node.child), hn::IndicesFromVec(int_tag, order)), int_tag,
-               ray.node + ray.top);
-    hn::StoreU(hn::TableLookupLanes(near, hn::IndicesFromVec(tag, order)), tag, ray.t + ray.top);
+    const auto nodes = hn::TableLookupLanes(hn::Load(int_tag, node.child), hn::IndicesFromVec(int_tag, order));
+    const auto at = hn::TableLookupLanes(hn::BitCast(int_tag, near), hn::IndicesFromVec(int_tag, order));
+    hn::StoreInterleaved2(nodes, at, int_tag, &ray.stack[ray.top].node);
     ray.top += static_cast<int>(hn::CountTrue(tag, is_met));
 #else
     hn::Store(near, tag, entry + i);
@@ -124,19 +134,20 @@ HWY_INLINE void push_children(const WideBvh::Node& node, float t_max, LoneRay& r
   for (const int first = ray.top; mask != 0; mask &= mask - 1) {
     const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
     int place = ray.top++;
-    for (; place > first && ray.t[place - 1] < entry[c]; --place)
-      ray.t[place] = ray.t[place - 1], ray.node[place] = ray.node[place - 1];
-    ray.t[place] = entry[c], ray.node[place] = node.child[c];
+    for (; place > first && ray.stack[place - 1].t < entry[c]; --place) ray.stack[place] = ray.stack[place - 1];
+    ray.stack[place] = {node.child[c], entry[c]};
   }
 }
 
 // What float can say of the triangles of a block, see SureTriangles.
 struct LoneSift {
-  uint32_t surely = 0, unsure = 0;
+  uint32_t surely, unsure;
   alignas(32) float low[8], high[8];  // of those that are surely met: t lies between
 };
 template <bool kAnyHit>
-HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float t_sure, float t_max, LoneSift& out) {
+HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float t_sure, float t_low, float t_max,
+                           LoneSift& out) {
+  out.surely = out.unsure = 0;
   const FloatTag tag;
   using V = BoxVec;
   const V ox = hn::Set(tag, ray.ox), oy = hn::Set(tag, ray.oy), oz = hn::Set(tag, ray.oz);
@@ -157,28 +168,27 @@ HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
     const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
     const V slack = hn::MulAdd(hn::Set(tag, kFilterSlack), hn::Add(size, hn::Set(tag, 1.0f)), hn::Set(tag, ray.tie));
-    const V high = hn::Set(tag, t_max), first = hn::Sub(nearest, slack);
+    const V high = hn::Set(tag, t_max);
     auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
-    maybe = hn::And(maybe, hn::And(hn::Le(first, high), hn::Ge(farthest, hn::Set(tag, ray.t_min))));
-    if (hn::AllFalse(tag, maybe)) continue;
-
+    maybe = hn::And(maybe, hn::And(hn::Le(hn::Sub(nearest, slack), high), hn::Ge(farthest, hn::Set(tag, ray.t_min))));
     const V twice = hn::Add(bound, bound);
-    auto surely = hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice)));
-    surely = hn::And(hn::And(surely, maybe), hn::Gt(first, hn::Set(tag, t_sure)));
-    if (kAnyHit) surely = hn::And(surely, hn::Lt(hn::MulAdd(hn::Set(tag, 2.0f), slack, farthest), high));
+    auto surely = hn::And(maybe, hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice))));
+    // Each weight is off by less than its bound, and their sum is at least six bounds.
+    const V inverse = hn::Div(hn::Set(tag, 1.0f), hn::Add(u, hn::Add(v, w)));
+    const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
+    const V off =
+        hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
+    const V low = hn::Sub(at, off), upper = hn::Add(at, off);
+    surely = hn::And(surely, hn::Gt(low, hn::Set(tag, t_sure)));
+    if (kAnyHit) surely = hn::And(surely, hn::Lt(upper, hn::Set(tag, t_low)));
     uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, surely, bits);
     out.surely |= static_cast<uint32_t>(bits[0]) << i;
     hn::StoreMaskBits(tag, hn::AndNot(surely, maybe), bits);
     out.unsure |= static_cast<uint32_t>(bits[0]) << i;
     if (kAnyHit) continue;
-    // Each weight is off by less than its bound, and their sum is at least six bounds.
-    const V inverse = hn::Div(hn::Set(tag, 1.0f), hn::Add(u, hn::Add(v, w)));
-    const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
-    const V off =
-        hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
-    hn::Store(hn::Sub(at, off), tag, out.low + i);
-    hn::Store(hn::Add(at, off), tag, out.high + i);
+    hn::Store(low, tag, out.low + i);
+    hn::Store(upper, tag, out.high + i);
   }
 }
 

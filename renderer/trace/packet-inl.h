@@ -11,6 +11,8 @@
 #define TILELIGHT_PACKET_INL_H
 #endif
 
+#include <algorithm>
+#include <memory>
 #include <span>
 
 #include "renderer/trace/lone-inl.h"
@@ -24,13 +26,15 @@ namespace HWY_NAMESPACE {
 template <bool kAnyHit, class Triangles = SureTriangles<kAnyHit>>
 class PacketWalk {
  public:
-  explicit PacketWalk(const CompiledScene& scene) : scene_(scene) {}
+  explicit PacketWalk(const CompiledScene& scene)
+      : scene_(scene),
+        stack_size_(kRoots + (WideBvh::kWidth - 1) * (static_cast<size_t>(scene.tree.depth) + 2)),
+        stacks_(new LoneEntry[stack_size_ * kPacketRays]) {}
 
   // REQUIRES: 1 to kPacketRays rays; they stay where they are until the last answer.
   void take(std::span<const BoundedRay> rays) {
     input_ = rays;
     inside_[0].body = inside_[1].body = kNone;
-    lone_set_ = 0;
     read_rays(rays, given_);
     // What is met near the ray's end may lie before or behind it: as if another hit were there.
     make_lanes(given_, rays_, lane_.t_sure, lane_.low, lane_.high);
@@ -51,7 +55,9 @@ class PacketWalk {
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i) visit_solid(static_cast<uint32_t>(i), all);
     if (!scene_.tree.nodes.empty()) {
       constexpr size_t kHalf = kPacketRays / 2;
-      walk_apart(input_.size() > kHalf ? walk_range<kPacketRays>(0) : walk_range<kHalf>(0), 0);
+      const LaneBits rest = input_.size() > kHalf ? walk_range<kPacketRays>(0) : walk_range<kHalf>(0);
+      leave_apart(rest, 0, -INFINITY);
+      if (apart_ != 0) walk_apart();
     }
     return end_walk();
   }
@@ -141,8 +147,11 @@ class PacketWalk {
       const Entry e = stack[--top];
       if (e.t > t_most) continue;
       if (hwy::PopCount(e.lanes) <= kFewLanes) {
-        walk_apart(e.lanes, e.node);
-        t_most = greatest_of<kCount>(lane_.high + rays_.first);
+        leave_apart(e.lanes, e.node, e.t);
+        if (!kAnyHit && e.node & WideBvh::kLeafBit) {  // the nearer the end, the less is left to visit
+          walk_apart();
+          t_most = greatest_of<kCount>(lane_.high + rays_.first);
+        }
         continue;
       }
       if (e.node & WideBvh::kLeafBit) {
@@ -173,48 +182,90 @@ class PacketWalk {
     }
   }
 
-  // Each lane by itself from a node on, a step of each in turn: while one waits for memory or for its branches, the
-  // others go on.
-  void walk_apart(LaneBits lanes, uint32_t root) {
-    const TriangleTree& tree = scene_.tree;
+  static constexpr int kRoots = 24;  // what is left to a lane at most, before it is walked
+
+  // Lanes in a list, added without a branch.
+  struct LaneList {
+    uint32_t at[kPacketRays];
+    size_t count = 0;
+    HWY_INLINE void add_if(bool is_in, size_t lane) {
+      at[count] = static_cast<uint32_t>(lane);
+      count += is_in;
+    }
+  };
+
+  // Leaves a node to lanes that will walk by themselves, when the packet has come to its end: then many do, and their
+  // ends lie nearer.
+  void leave_apart(LaneBits lanes, uint32_t node, float t) {
+    bool is_full = false;
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
       const size_t lane = lowest_of(rest);
-      if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, lane);
-      lone_[lane].push(root, lone_[lane].t_min);
+      LoneRay& ray = lone_[lane];
+      if (!(apart_ >> lane & 1)) ray.set(rays_, lane, stacks_.get() + lane * stack_size_);
+      ray.push(node, t);
+      is_full |= ray.top == kRoots;
     }
-    lone_set_ |= lanes;
-    while (lanes != 0) {
-      for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = lowest_of(rest);
-        if (!step(tree, lone_[lane], lane)) lanes &= ~bit_of(lane);
-      }
-    }
-  }
-  // Visits the lane's next node; false: there is none.
-  HWY_INLINE bool step(const TriangleTree& tree, LoneRay& ray, size_t lane) {
-    const float high = lane_.high[lane];
-    do {
-      if (ray.top == 0) return false;
-    } while (ray.t[--ray.top] > high);
-    const uint32_t next = ray.node[ray.top];
-    if (next & WideBvh::kLeafBit) {
-      const uint32_t leaf = next & ~WideBvh::kLeafBit;
-      if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
-        visit_body(leaf & ~TriangleTree::kBodyBit, bit_of(lane));
-      } else {
-        visit_block(tree.blocks[leaf], ray, lane);
-      }
-    } else {
-      push_children<!kAnyHit>(tree.nodes[next], high, ray);  // of shadow rays the first hit will do
-    }
-    if (ray.top == 0) return false;
-    prefetch_any(tree, ray.node[ray.top - 1]);
-    return true;
+    apart_ |= lanes;
+    if (is_full) walk_apart();
   }
 
-  HWY_INLINE void visit_block(const TriangleBlock& block, const LoneRay& ray, size_t lane) {
-    LoneSift sifted;
-    sift_block<kAnyHit>(block, ray, lane_.t_sure[lane], lane_.high[lane], sifted);
+  // Each of these lanes by itself. All take a step, then all the next: what a lane's step turns out to be, nobody
+  // foresees, but the next lanes' do not depend on it.
+  void walk_apart() {
+    const TriangleTree& tree = scene_.tree;
+    const TreePlaces places(tree);
+    LaneList active, nodes, leaves, met;
+    for (; apart_ != 0; apart_ &= apart_ - 1) {
+      const size_t lane = lowest_of(apart_);
+      // What was left first lies nearest.
+      if (!kAnyHit) std::reverse(lone_[lane].stack, lone_[lane].stack + lone_[lane].top);
+      active.add_if(true, lane);
+    }
+    while (active.count > 0) {
+      choose_steps(places, active, nodes, leaves);
+      for (size_t i = 0; i < nodes.count; ++i) {
+        LoneRay& ray = lone_[nodes.at[i]];
+        // Of shadow rays the first hit will do, in any order.
+        push_children<!kAnyHit>(tree.nodes[ray.stack[ray.top].node], lane_.high[nodes.at[i]], ray);
+      }
+      met.count = 0;
+      for (size_t i = 0; i < leaves.count; ++i) {
+        const size_t lane = leaves.at[i];
+        const uint32_t leaf = leaf_of(lone_[lane]);
+        if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
+          visit_body(leaf & ~TriangleTree::kBodyBit, bit_of(lane));
+        } else {
+          LoneSift& sift = sifts_[lane];
+          sift_block<kAnyHit>(tree.blocks[leaf], lone_[lane], lane_.t_sure[lane], lane_.low[lane], lane_.high[lane],
+                              sift);
+          met.add_if((sift.surely | sift.unsure) != 0, lane);
+        }
+      }
+      for (size_t i = 0; i < met.count; ++i)
+        take_hits(tree.blocks[leaf_of(lone_[met.at[i]])], sifts_[met.at[i]], met.at[i]);
+    }
+  }
+  // Takes each lane's next step from its stack, which stays readable there until the lane pushes; who has none left is
+  // active no more.
+  HWY_INLINE void choose_steps(const TreePlaces& places, LaneList& active, LaneList& nodes, LaneList& leaves) {
+    const size_t count = active.count;
+    active.count = nodes.count = leaves.count = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const size_t lane = active.at[i];
+      LoneRay& ray = lone_[lane];
+      const bool is_left = ray.top > 0;
+      ray.top -= is_left;
+      const LoneEntry next = ray.stack[ray.top];
+      prefetch_any(places, next.node);
+      const bool is_near = is_left & (next.t <= lane_.high[lane]), is_leaf = next.node & WideBvh::kLeafBit;
+      active.add_if(is_left, lane);
+      nodes.add_if(is_near & !is_leaf, lane);
+      leaves.add_if(is_near & is_leaf, lane);
+    }
+  }
+  static HWY_INLINE uint32_t leaf_of(const LoneRay& ray) { return ray.stack[ray.top].node & ~WideBvh::kLeafBit; }
+
+  HWY_INLINE void take_hits(const TriangleBlock& block, const LoneSift& sifted, size_t lane) {
     for (uint32_t met = sifted.surely; met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
       if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
@@ -328,6 +379,7 @@ class PacketWalk {
   void block_lane(size_t lane, uint32_t body) {
     lane_.body[lane] = body;
     lane_.high[lane] = -INFINITY;
+    lone_[lane].top = 0;
   }
 
   void visit_body(uint32_t index, LaneBits lanes) {
@@ -411,9 +463,10 @@ class PacketWalk {
     ExactHits hits;
     for (lanes = inside(body).meet(lanes, vertex, hits); lanes != 0; lanes &= lanes - 1) {
       const size_t i = lowest_of(lanes);
-      if (hits.t[i] > given_.reach[i]) {
-        offer(i, body, prim, hits.t[i], hits.b0[i], hits.b1[i]);
-      } else {
+      const double t = hits.t[i], reach = given_.reach[i];
+      if (t > reach) {
+        offer(i, body, prim, t, hits.b0[i], hits.b1[i]);
+      } else if (t >= -reach) {
         decide_alone(body, prim, i);
       }
     }
@@ -432,8 +485,11 @@ class PacketWalk {
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
   LoneRay lone_[kPacketRays];
-  LaneBits lone_set_ = 0;  // the lanes whose lone_ is set
-  int latest_ = 0;         // which of these was asked for last
+  LaneBits apart_ = 0;  // the lanes to which something is left
+  LoneSift sifts_[kPacketRays];
+  size_t stack_size_;                    // of a lane; the last node's children are written eight at once
+  std::unique_ptr<LoneEntry[]> stacks_;  // left as it is where nothing is pushed
+  int latest_ = 0;                       // which of inside_ was asked for last
 };
 
 // What lies ahead in a list of rays, which the processor does not foresee in time.

@@ -77,17 +77,11 @@ struct SureTriangles {
       if (hn::AllFalse(tag, maybe)) continue;
 
       const V twice = hn::Add(bound, bound);
-      auto surely = hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice)));
-      surely = hn::And(hn::And(surely, maybe), hn::Gt(hn::Sub(nearest, slack), hn::Load(tag, lane.t_sure + i)));
-      if (kAnyHit) {
-        surely = hn::And(surely, hn::Lt(hn::MulAdd(hn::Set(tag, 2.0f), slack, farthest), high));
-        unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
-        hn::Store(hn::IfThenElse(surely, hn::Set(tag, -INFINITY), high), tag, lane.high + i);
-        take(surely, i);
+      auto surely = hn::And(maybe, hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice))));
+      if (hn::AllFalse(tag, surely)) {
+        unsure |= lane_bits(maybe) << i;
         continue;
       }
-      unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
-      if (hn::AllFalse(tag, surely)) continue;
       // Each weight is off by less than its bound, and their sum is at least six bounds.
       const V sum = hn::Add(u, hn::Add(v, w));
       const V inverse = hn::Div(hn::Set(tag, 1.0f), sum);
@@ -95,6 +89,14 @@ struct SureTriangles {
       const V off =
           hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
       const V low = hn::Sub(at, off), upper = hn::Add(at, off);
+      surely = hn::And(surely, hn::Gt(low, hn::Load(tag, lane.t_sure + i)));
+      if (kAnyHit) surely = hn::And(surely, hn::Lt(upper, hn::Load(tag, lane.low + i)));
+      unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
+      if (kAnyHit) {
+        hn::Store(hn::IfThenElse(surely, hn::Set(tag, -INFINITY), high), tag, lane.high + i);
+        take(surely, i);
+        continue;
+      }
       const auto wins = hn::And(surely, hn::Lt(upper, high));
       const auto loses = hn::AndNot(wins, surely);
       const V best_low = hn::Load(tag, lane.low + i);
