@@ -42,7 +42,8 @@ struct LoneRay {
       near_at[axis] = inverse[axis] < 0.0f ? upper : lower, far_at[axis] = inverse[axis] < 0.0f ? lower : upper;
     }
     const float x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]);
-    kz = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const bool is_z = z > std::max(x, y), is_y = !is_z & (y > x);  // no branches: neighbours differ
+    kz = 2 * is_z + is_y;
     kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
     ox = rays.origin[kx][lane], oy = rays.origin[ky][lane], oz = rays.origin[kz][lane];
     sz = inverse[kz], sx = d[kx] * sz, sy = d[ky] * sz;

@@ -133,51 +133,55 @@ class PacketWalk {
   template <size_t kCount>
   void walk() {
     constexpr size_t kFewLanes = kAnyHit ? 6 : 3;  // walked apart
-    struct Entry {
-      uint32_t node;
-      float t;
-      LaneBits lanes;
-    };
     const TriangleTree& tree = scene_.tree;
-    Entry stack[kStackSize];
+    // Apart, for what is stored as two numbers and read as one waits for its stores.
+    struct {
+      uint32_t node[kStackSize];
+      float t[kStackSize];
+      LaneBits lanes[kStackSize];
+    } stack;
     int top = 1;
-    stack[0] = {0, rays_.t_least, first_lanes(kCount) << rays_.first};
+    stack.node[0] = 0, stack.t[0] = rays_.t_least, stack.lanes[0] = first_lanes(kCount) << rays_.first;
     float t_most = greatest_of<kCount>(lane_.high + rays_.first);
     while (top > 0) {
-      const Entry e = stack[--top];
-      if (e.t > t_most) continue;
-      if (hwy::PopCount(e.lanes) <= kFewLanes) {
-        leave_apart(e.lanes, e.node, e.t);
-        if (!kAnyHit && e.node & WideBvh::kLeafBit) {  // the nearer the end, the less is left to visit
+      const float t = stack.t[--top];
+      if (t > t_most) continue;
+      const uint32_t next = stack.node[top];
+      const LaneBits lanes = stack.lanes[top];
+      if (hwy::PopCount(lanes) <= kFewLanes) {
+        leave_apart(lanes, next, t);
+        if (!kAnyHit && next & WideBvh::kLeafBit) {  // the nearer the end, the less is left to visit
           walk_apart();
           t_most = greatest_of<kCount>(lane_.high + rays_.first);
         }
         continue;
       }
-      if (e.node & WideBvh::kLeafBit) {
-        const uint32_t leaf = e.node & ~WideBvh::kLeafBit;
+      if (next & WideBvh::kLeafBit) {
+        const uint32_t leaf = next & ~WideBvh::kLeafBit;
         if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
-          visit_body(leaf & ~TriangleTree::kBodyBit, e.lanes);
+          visit_body(leaf & ~TriangleTree::kBodyBit, lanes);
         } else {
-          visit_block<kCount>(tree.blocks[leaf], e.lanes);
+          visit_block<kCount>(tree.blocks[leaf], lanes);
         }
         t_most = greatest_of<kCount>(lane_.high + rays_.first);
         continue;
       }
-      const WideBvh::Node& node = tree.nodes[e.node];
+      const WideBvh::Node& node = tree.nodes[next];
       HWY_ALIGN float entry[WideBvh::kWidth];
       const auto plane = [&](int side, int axis, size_t i)
                              HWY_ATTR { return hn::Load(FloatTag(), node.bounds[side][axis] + i); };
       const int first = top;
       for (uint32_t boxes = boxes_met(rays_, plane, t_most, entry); boxes != 0; boxes &= boxes - 1) {
         const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(boxes);
-        const LaneBits lanes = lanes_met<kCount>(rays_, node, c, lane_.high);
-        if (lanes == 0) continue;
-        const Entry met{node.child[c], entry[c], lanes};
-        prefetch(tree, met.node);
+        const LaneBits met = lanes_met<kCount>(rays_, node, c, lane_.high);
+        if (met == 0) continue;
+        prefetch(tree, node.child[c]);
         int place = top++;
-        for (; !kAnyHit && place > first && stack[place - 1].t < met.t; --place) stack[place] = stack[place - 1];
-        stack[place] = met;
+        for (; !kAnyHit && place > first && stack.t[place - 1] < entry[c]; --place) {
+          stack.node[place] = stack.node[place - 1], stack.t[place] = stack.t[place - 1];
+          stack.lanes[place] = stack.lanes[place - 1];
+        }
+        stack.node[place] = node.child[c], stack.t[place] = entry[c], stack.lanes[place] = met;
       }
     }
   }
@@ -196,7 +200,7 @@ class PacketWalk {
 
   // Leaves a node to lanes that will walk by themselves, when the packet has come to its end: then many do, and their
   // ends lie nearer.
-  void leave_apart(LaneBits lanes, uint32_t node, float t) {
+  HWY_NOINLINE void leave_apart(LaneBits lanes, uint32_t node, float t) {
     bool is_full = false;
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
       const size_t lane = lowest_of(rest);
@@ -211,7 +215,7 @@ class PacketWalk {
 
   // Each of these lanes by itself. All take a step, then all the next: what a lane's step turns out to be, nobody
   // foresees, but the next lanes' do not depend on it.
-  void walk_apart() {
+  HWY_NOINLINE void walk_apart() {
     const TriangleTree& tree = scene_.tree;
     const TreePlaces places(tree);
     LaneList active, nodes, leaves, met;
@@ -382,7 +386,7 @@ class PacketWalk {
     lone_[lane].top = 0;
   }
 
-  void visit_body(uint32_t index, LaneBits lanes) {
+  HWY_NOINLINE void visit_body(uint32_t index, LaneBits lanes) {
     if (!is_built_in(Feature::triangles) || scene_.bodies[index].kind != BodyKind::mesh)
       return visit_solid(index, lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -398,7 +402,7 @@ class PacketWalk {
     }
   }
 
-  void visit_solid(uint32_t index, LaneBits lanes) {
+  HWY_NOINLINE void visit_solid(uint32_t index, LaneBits lanes) {
     constexpr size_t kFewLanes = 3;  // are asked one by one
     if (hwy::PopCount(lanes) <= kFewLanes) {
       for (; lanes != 0; lanes &= lanes - 1) ask_solid(index, lowest_of(lanes));
@@ -448,15 +452,29 @@ class PacketWalk {
                   : hn::Sub(hn::Min(a, hn::Min(b, c)), hn::Set(tag, WideBvh::kWiden));
     };
     const float t_most = greatest_of<kCount>(lane_.high + rays_.first);
-    for (uint32_t met = boxes_met(rays_, plane, t_most, entry); met != 0; met &= met - 1) {
-      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      const LaneBits unsure = Triangles::template visit<kCount>(block, k, lanes, rays_, given_, lane_);
+    uint32_t boxes = boxes_met(rays_, plane, t_most, entry);
+    if (boxes == 0) return;
+    const BlockEdges edges(block, rays_);
+    struct {
+      int triangle[8];
+      LaneBits lanes[8];
+      size_t count = 0;
+    } maybe;  // filled without a branch: which triangles are met, nobody foresees
+    for (; boxes != 0; boxes &= boxes - 1) {
+      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(boxes);
+      maybe.triangle[maybe.count] = k;
+      maybe.lanes[maybe.count] = lanes & Triangles::template may_meet<kCount>(block, edges, k, entry[k], rays_, lane_);
+      maybe.count += maybe.lanes[maybe.count] != 0;
+    }
+    for (size_t i = 0; i < maybe.count; ++i) {
+      const int k = maybe.triangle[i];
+      const LaneBits unsure = Triangles::template meet<kCount>(block, edges, k, maybe.lanes[i], rays_, given_, lane_);
       if (unsure != 0) decide(block.body[k], block.prim[k], unsure);
     }
   }
 
   // In double, which rays meet a triangle, and where.
-  void decide(uint32_t body, uint32_t prim, LaneBits lanes) {
+  HWY_NOINLINE void decide(uint32_t body, uint32_t prim, LaneBits lanes) {
     const CompiledMesh& mesh = *scene_.bodies[body].mesh;
     const auto& triangle = mesh.triangles[prim];
     const Vec3 vertex[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};

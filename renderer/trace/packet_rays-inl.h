@@ -9,7 +9,9 @@
 #define TILELIGHT_PACKET_RAYS_INL_H
 #endif
 
+#include <bit>
 #include <cstddef>
+#include <cstring>
 #include <span>
 
 #include "renderer/trace/lanes-inl.h"
@@ -123,8 +125,9 @@ struct PacketRays {
   int near_side[3];  // where not mixed. 0: enters by the lower plane
   float t_least;
   int kx = 0, ky = 1, kz = 2;
-  float slack = 0.0f;   // points in the sheared plane are off by less
-  bool is_near = true;  // no origin is so far away that the boxes' width would not cover its rounding
+  float slope_middle[2], slope_spread;  // how far the two slopes, together, are from these
+  float slack = 0.0f;                   // points in the sheared plane are off by less
+  bool is_near = true;                  // no origin is so far away that the boxes' width would not cover its rounding
 };
 
 // Of 1 / d, finite also for d = 0.
@@ -203,6 +206,12 @@ template <class Mask>
 HWY_INLINE LaneBits lane_bits(Mask mask) {
   uint8_t bits[8] = {};
   hn::StoreMaskBits(LaneTag(), mask, bits);
+  if constexpr (hn::MaxLanes(LaneTag()) <= 8) return bits[0];
+  if constexpr (std::endian::native == std::endian::little) {  // as one number, in a register
+    uint16_t both;
+    std::memcpy(&both, bits, sizeof both);
+    return both;
+  }
   return bits[0] | static_cast<LaneBits>(bits[1]) << 8;
 }
 // The lanes of a row that are `what`.
@@ -291,6 +300,12 @@ HWY_INLINE bool bound_lanes(size_t first, PacketRays& out) {
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
     hn::Store(hn::Mul(hn::Load(tag, out.direction[out.ky] + i), inverse), tag, out.slope[1] + i);
   }
+  const float middle_z = d_low[out.kz] + d_high[out.kz];
+  out.slope_middle[0] = (d_low[out.kx] + d_high[out.kx]) / middle_z;
+  out.slope_middle[1] = (d_low[out.ky] + d_high[out.ky]) / middle_z;
+  const float width[3] = {wx, wy, wz};
+  const float turned = (std::abs(out.slope_middle[0]) + std::abs(out.slope_middle[1])) * width[out.kz];
+  out.slope_spread = (width[out.kx] + width[out.ky] + turned) * 0.5001f / most;
   const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / most;
   out.slack = kSheared * std::max(1.0f, slope);  // what is rounded before it is sheared grows with the slope
   return true;

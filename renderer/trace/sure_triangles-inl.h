@@ -22,74 +22,140 @@ struct LaneHits {
   alignas(64) uint32_t body[kPacketRays], prim[kPacketRays];  // the best hit; kNone: none
 };
 
-// One triangle of a block against all lanes: hits beyond doubt go to low, high and prim; returned are the lanes, as
-// bits, of which float cannot say whether they meet it.
+// What a packet knows of a block's triangles before it asks them one by one; the axes are the packet's.
+//
+// In the plane across the ray, sheared along kz, vertex 0 lies at p and the others at p + e and p + f. In the point
+// that the ray meets the vertices weigh e x f - f x p - p x e, f x p and p x e; together e x f.
+//
+// How far these may be off: a coordinate of p by d = kSheared / 2.14 (for slopes up to 1; the slack grows with them),
+// one of e or f by (4 + 16 L) 2^-25, L their longest component: roundings of four coordinates, and by size those of the
+// difference, the slope and the product. Let l be the longer |x| + |y| of e and f, and m = |p.x| + |p.y| + l. Then the
+// first weight, whose vertices are off by both, is off by no more than 2 (d + (4 + 16 L) 2^-25) m, and by 11 l m 2^-24
+// for the roundings of crosses and differences; the others and the whole by less.
+struct BlockEdges {
+  alignas(32) float e[3][8], f[3][8];        // along kx, ky and kz
+  alignas(32) float margin[8], smallest[8];  // weights are off by less than margin * (|p.x| + |p.y|) + smallest
+
+  BlockEdges(const TriangleBlock& block, const PacketRays& rays) {
+    const FloatTag tag;
+    const int axes[3] = {rays.kx, rays.ky, rays.kz};
+    const auto middle_x = hn::Set(tag, rays.slope_middle[0]), middle_y = hn::Set(tag, rays.slope_middle[1]),
+               spread = hn::Set(tag, rays.slope_spread);
+    for (size_t i = 0; i < 8; i += hn::MaxLanes(tag)) {
+      auto component = hn::Zero(tag), length = hn::Zero(tag);  // L and l
+      for (int v = 1; v < 3; ++v) {
+        auto& to = v == 1 ? e : f;
+        BoxVec edge[3];
+        for (int k = 0; k < 3; ++k) {
+          edge[k] = hn::Sub(hn::Load(tag, block.vertex[v][axes[k]] + i), hn::Load(tag, block.vertex[0][axes[k]] + i));
+          hn::Store(edge[k], tag, to[k] + i);
+          component = hn::Max(component, hn::Abs(edge[k]));
+        }
+        const auto x = hn::NegMulAdd(middle_x, edge[2], edge[0]), y = hn::NegMulAdd(middle_y, edge[2], edge[1]);
+        length = hn::Max(length, hn::MulAdd(spread, hn::Abs(edge[2]), hn::Add(hn::Abs(x), hn::Abs(y))));
+      }
+      const auto part =
+          hn::MulAdd(hn::Set(tag, 0.55f), component, hn::MulAdd(hn::Set(tag, 0.35f), length, hn::Set(tag, 1.1f)));
+      const auto off = hn::Mul(part, hn::Set(tag, rays.slack));
+      hn::Store(off, tag, margin + i);
+      hn::Store(hn::MulAdd(off, length, hn::Set(tag, 0x1p-38f)), tag, smallest + i);  // and what is off in both factors
+    }
+  }
+};
+
+// What the vertices of one triangle weigh for a register of lanes.
+struct LaneWeights {
+  using V = hn::Vec<LaneTag>;
+  V u, v, w, sum;
+  V bound;  // no weight is off by more
+  V pz;
+
+  HWY_INLINE LaneWeights(const TriangleBlock& block, const BlockEdges& edges, int k, const PacketRays& rays, size_t i) {
+    const LaneTag tag;
+    const auto from_ray = [&](int axis) HWY_ATTR {
+      return hn::Sub(hn::Set(tag, block.vertex[0][axis][k]), hn::Load(tag, rays.origin[axis] + i));
+    };
+    const V sx = hn::Load(tag, rays.slope[0] + i), sy = hn::Load(tag, rays.slope[1] + i);
+    const V ez = hn::Set(tag, edges.e[2][k]), fz = hn::Set(tag, edges.f[2][k]);
+    pz = from_ray(rays.kz);
+    const V px = hn::NegMulAdd(sx, pz, from_ray(rays.kx)), py = hn::NegMulAdd(sy, pz, from_ray(rays.ky));
+    const V ex = hn::NegMulAdd(sx, ez, hn::Set(tag, edges.e[0][k])),
+            ey = hn::NegMulAdd(sy, ez, hn::Set(tag, edges.e[1][k]));
+    const V fx = hn::NegMulAdd(sx, fz, hn::Set(tag, edges.f[0][k])),
+            fy = hn::NegMulAdd(sy, fz, hn::Set(tag, edges.f[1][k]));
+    const auto cross = [](V ax, V ay, V bx, V by) HWY_ATTR { return hn::MulSub(ax, by, hn::Mul(ay, bx)); };
+    v = cross(fx, fy, px, py), w = cross(px, py, ex, ey), sum = cross(ex, ey, fx, fy);
+    u = hn::Sub(hn::Sub(sum, v), w);
+    bound =
+        hn::MulAdd(hn::Set(tag, edges.margin[k]), hn::Add(hn::Abs(px), hn::Abs(py)), hn::Set(tag, edges.smallest[k]));
+  }
+  // Whether all weights are above `least`, or all below its opposite.
+  HWY_INLINE auto agree_beyond(V least) const {
+    return hn::Or(hn::Gt(hn::Min(u, hn::Min(v, w)), least), hn::Lt(hn::Max(u, hn::Max(v, w)), hn::Neg(least)));
+  }
+};
+
+// One triangle of a block against all lanes, of which most mostly miss it: so it is asked first whether any may meet
+// it.
 template <bool kAnyHit>
 struct SureTriangles {
   static constexpr bool kInDouble = true;  // what is found is computed in double at the end
 
+  // Which lanes may meet the k-th triangle. entry: no lane does before this t.
   template <size_t kCount>
-  static HWY_INLINE LaneBits visit(const TriangleBlock& block, int k, LaneBits lanes, const PacketRays& rays,
-                                   const GivenRays& given, LaneHits& lane) {
+  static HWY_INLINE LaneBits may_meet(const TriangleBlock& block, const BlockEdges& edges, int k, float entry,
+                                      const PacketRays& rays, const LaneHits& lane) {
+    const LaneTag tag;
+    LaneBits lanes = 0;
+    for (size_t step = 0; step < kCount; step += hn::MaxLanes(tag)) {
+      const size_t i = rays.first + step;
+      const LaneWeights weights(block, edges, k, rays, i);
+      const auto is_before_end = hn::Ge(hn::Load(tag, lane.high + i), hn::Set(tag, entry));
+      lanes |= lane_bits(hn::And(weights.agree_beyond(hn::Neg(weights.bound)), is_before_end)) << i;
+    }
+    return lanes;
+  }
+
+  // Of the lanes that may meet it, hits beyond doubt go to low, high and prim; returned are those of which float cannot
+  // say.
+  template <size_t kCount>
+  static HWY_INLINE LaneBits meet(const TriangleBlock& block, const BlockEdges& edges, int k, LaneBits lanes,
+                                  const PacketRays& rays, const GivenRays& given, LaneHits& lane) {
     const LaneTag tag;
     const LaneIntTag int_tag;
     using V = hn::Vec<LaneTag>;
-    const auto body = hn::Set(int_tag, block.body[k]), prim = hn::Set(int_tag, block.prim[k]);
+    const uint32_t body = block.body[k], prim = block.prim[k];
+    if (given.has_left) lanes &= ~(lanes_equal(given.left_prim, prim) & lanes_equal(given.left_body, body));
     const auto take = [&](auto mask, size_t i) HWY_ATTR {
       const auto taken = hn::RebindMask(int_tag, mask);
-      hn::Store(hn::IfThenElse(taken, body, hn::Load(int_tag, lane.body + i)), int_tag, lane.body + i);
-      hn::Store(hn::IfThenElse(taken, prim, hn::Load(int_tag, lane.prim + i)), int_tag, lane.prim + i);
+      const auto put = [&](uint32_t what, uint32_t* row) HWY_ATTR {
+        hn::Store(hn::IfThenElse(taken, hn::Set(int_tag, what), hn::Load(int_tag, row + i)), int_tag, row + i);
+      };
+      put(body, lane.body), put(prim, lane.prim);
     };
     LaneBits unsure = 0;
     for (size_t step = 0; step < kCount; step += hn::MaxLanes(tag)) {
       const size_t i = rays.first + step;
-      if (!(lanes >> i & first_lanes(hn::MaxLanes(tag)))) continue;
-      const V ox = hn::Load(tag, rays.origin[rays.kx] + i), oy = hn::Load(tag, rays.origin[rays.ky] + i),
-              oz = hn::Load(tag, rays.origin[rays.kz] + i);
-      const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
-      const V sx = hn::Load(tag, rays.slope[0] + i), sy = hn::Load(tag, rays.slope[1] + i);
-      V x[3], y[3], t[3], most = hn::Zero(tag);
-      for (int v = 0; v < 3; ++v) {
-        const V z = hn::Sub(hn::Set(tag, block.vertex[v][rays.kz][k]), oz);
-        x[v] = hn::NegMulAdd(sx, z, hn::Sub(hn::Set(tag, block.vertex[v][rays.kx][k]), ox));
-        y[v] = hn::NegMulAdd(sy, z, hn::Sub(hn::Set(tag, block.vertex[v][rays.ky][k]), oy));
-        t[v] = hn::Mul(sz, z);
-        most = hn::Max(most, hn::Add(hn::Abs(x[v]), hn::Abs(y[v])));
-      }
-      const V u = hn::MulSub(x[2], y[1], hn::Mul(y[2], x[1])), v = hn::MulSub(x[0], y[2], hn::Mul(y[0], x[2])),
-              w = hn::MulSub(x[1], y[0], hn::Mul(y[1], x[0]));
-      const V bound = hn::Mul(hn::Set(tag, 2.0f * rays.slack), most);
-      const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
-      // The hit's t lies between those of the vertices.
-      const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
-      const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
-      const V slack =
-          hn::MulAdd(hn::Set(tag, kFilterSlack), hn::Add(size, hn::Set(tag, 1.0f)), hn::Load(tag, rays.tie + i));
+      const LaneBits here = lanes >> i & first_lanes(hn::MaxLanes(tag));
+      if (here == 0) continue;
+      const uint8_t bits[8] = {static_cast<uint8_t>(here), static_cast<uint8_t>(here >> 8)};
+      auto maybe = hn::LoadMaskBits(tag, bits);
+      const LaneWeights weights(block, edges, k, rays, i);
       const V high = hn::Load(tag, lane.high + i);
-      auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
-      maybe = hn::And(maybe,
-                      hn::And(hn::Le(hn::Sub(nearest, slack), high), hn::Ge(farthest, hn::Load(tag, rays.t_min + i))));
-      if (given.has_left) {
-        const auto is_left = hn::And(hn::Eq(hn::Load(int_tag, given.left_prim + i), prim),
-                                     hn::Eq(hn::Load(int_tag, given.left_body + i), body));
-        maybe = hn::AndNot(hn::RebindMask(tag, is_left), maybe);
-      }
-      if (hn::AllFalse(tag, maybe)) continue;
-
-      const V twice = hn::Add(bound, bound);
-      auto surely = hn::And(maybe, hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice))));
-      if (hn::AllFalse(tag, surely)) {
-        unsure |= lane_bits(maybe) << i;
-        continue;
-      }
-      // Each weight is off by less than its bound, and their sum is at least six bounds.
-      const V sum = hn::Add(u, hn::Add(v, w));
-      const V inverse = hn::Div(hn::Set(tag, 1.0f), sum);
-      const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
-      const V off =
-          hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), bound), hn::Mul(hn::Sub(farthest, nearest), hn::Abs(inverse)), slack);
+      auto surely = hn::And(maybe, weights.agree_beyond(hn::Add(weights.bound, weights.bound)));
+      // Each weight is off by less than its bound, and their sum, which is at least six bounds, by one.
+      const V ez = hn::Set(tag, edges.e[2][k]), fz = hn::Set(tag, edges.f[2][k]);
+      const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
+      const V inverse = hn::Div(hn::Set(tag, 1.0f), weights.sum);
+      const V at = hn::Mul(sz, hn::MulAdd(hn::MulAdd(weights.v, ez, hn::Mul(weights.w, fz)), inverse, weights.pz));
+      const V range = hn::Mul(hn::Abs(sz), hn::Max(hn::Abs(ez), hn::Abs(fz)));
+      const V size = hn::Add(hn::Add(hn::Abs(at), range), hn::Set(tag, 1.0f));
+      const V slack = hn::MulAdd(hn::Set(tag, kFilterSlack), size, hn::Load(tag, rays.tie + i));
+      const V off = hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), weights.bound), hn::Mul(range, hn::Abs(inverse)), slack);
       const V low = hn::Sub(at, off), upper = hn::Add(at, off);
-      surely = hn::And(surely, hn::Gt(low, hn::Load(tag, lane.t_sure + i)));
+      const auto is_elsewhere = hn::Or(hn::Lt(upper, hn::Load(tag, rays.t_min + i)), hn::Gt(low, high));
+      maybe = hn::AndNot(hn::And(surely, is_elsewhere), maybe);
+      surely = hn::And(hn::And(surely, maybe), hn::Gt(low, hn::Load(tag, lane.t_sure + i)));
       if (kAnyHit) surely = hn::And(surely, hn::Lt(upper, hn::Load(tag, lane.low + i)));
       unsure |= lane_bits(hn::AndNot(surely, maybe)) << i;
       if (kAnyHit) {

@@ -21,8 +21,14 @@ struct NaiveTriangles {
   static constexpr bool kInDouble = false;
 
   template <size_t kCount>
-  static HWY_INLINE LaneBits visit(const TriangleBlock& block, int k, LaneBits lanes, const PacketRays& rays,
-                                   const GivenRays&, LaneHits& lane) {
+  static HWY_INLINE LaneBits may_meet(const TriangleBlock&, const BlockEdges&, int, float, const PacketRays& rays,
+                                      const LaneHits&) {
+    return first_lanes(kCount) << rays.first;
+  }
+
+  template <size_t kCount>
+  static HWY_INLINE LaneBits meet(const TriangleBlock& block, const BlockEdges&, int k, LaneBits lanes,
+                                  const PacketRays& rays, const GivenRays&, LaneHits& lane) {
     constexpr float kEpsilon = 1e-4f;
     const LaneTag tag;
     const LaneIntTag int_tag;
