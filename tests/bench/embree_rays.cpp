@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/bench/timing.h"
+
 namespace tilelight::bench {
 namespace {
 
@@ -19,12 +21,6 @@ double ms_since(Clock::time_point start) {
 
 constexpr float kEpsilon = 1e-4f;  // where rays that leave a surface begin, normalised units
 constexpr size_t kPacket = 16;
-
-// Rays and answers in one of Embree's layouts, and as they were before a run.
-struct Layout {
-  std::vector<RTCRayHit> singles;
-  std::vector<RTCRayHit16> packets;
-};
 
 RTCRay ray_of(const BoundedRay& in, bool any_hit) {
   RTCRay out{};
@@ -58,15 +54,21 @@ struct EmbreeTracer::State {
   std::atomic<int64_t> bytes = 0;
 };
 
+// Rays and answers in one of Embree's layouts.
+struct EmbreeTracer::Layout {
+  std::vector<RTCRayHit> singles;
+  std::vector<RTCRayHit16> packets;
+};
+struct EmbreeTracer::Part {
+  bool any_hit = false, coherent = false;
+  size_t count = 0;
+  Layout layout;  // before they are traced
+};
+
 class EmbreeTracer::Job {
  public:
-  struct Part {
-    bool any_hit = false, coherent = false;
-    size_t count = 0;
-    Layout before, now;
-  };
   EmbreeMode mode = EmbreeMode::single;
-  std::vector<std::vector<Part>> waves;
+  std::vector<std::vector<Part>> pixels;
 };
 
 EmbreeTracer::EmbreeTracer(const CompiledScene& scene, int threads, bool robust) : state_(std::make_unique<State>()) {
@@ -115,24 +117,24 @@ EmbreeTracer::~EmbreeTracer() {
 double EmbreeTracer::build_ms() const { return state_->build_ms; }
 int64_t EmbreeTracer::memory_bytes() const { return state_->bytes; }
 
-EmbreeTracer::JobPtr EmbreeTracer::prepare(const std::vector<Wave>& waves, EmbreeMode mode) const {
+EmbreeTracer::JobPtr EmbreeTracer::prepare(const FrameWaves& frame, EmbreeMode mode) const {
   auto job = std::make_shared<Job>();
   job->mode = mode;
-  for (const Wave& wave : waves) {
-    auto& parts = job->waves.emplace_back();
-    for (const Batch& batch : wave.batches) {
-      Job::Part part{wave.any_hit, wave.depth == 0, batch.size(), {}, {}};
+  for (const PixelWaves& waves : frame) {
+    auto& parts = job->pixels.emplace_back();
+    for (const Wave& wave : waves) {
+      Part part{wave.any_hit, wave.depth == 0, wave.rays.size(), {}};
       if (mode == EmbreeMode::packets) {
-        part.before.packets.resize((batch.size() + kPacket - 1) / kPacket);
-        for (size_t i = 0; i < part.before.packets.size() * kPacket; ++i)
-          set_lane(part.before.packets[i / kPacket], i % kPacket,
-                   ray_of(batch[std::min(i, batch.size() - 1)], wave.any_hit));
+        part.layout.packets.resize((wave.rays.size() + kPacket - 1) / kPacket);
+        for (size_t i = 0; i < part.layout.packets.size() * kPacket; ++i)
+          set_lane(part.layout.packets[i / kPacket], i % kPacket,
+                   ray_of(wave.rays[std::min(i, wave.rays.size() - 1)], wave.any_hit));
       } else {
-        for (const BoundedRay& ray : batch) {
+        for (const BoundedRay& ray : wave.rays) {
           RTCRayHit single{};
           single.ray = ray_of(ray, wave.any_hit);
           single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-          part.before.singles.push_back(single);
+          part.layout.singles.push_back(single);
         }
       }
       parts.push_back(std::move(part));
@@ -141,66 +143,71 @@ EmbreeTracer::JobPtr EmbreeTracer::prepare(const std::vector<Wave>& waves, Embre
   return job;
 }
 
-double EmbreeTracer::run(Job& job, TilePool& pool) const {
-  for (auto& parts : job.waves)
-    for (Job::Part& part : parts) part.now = part.before;
-  const auto start = Clock::now();
-  for (auto& parts : job.waves) {
-    pool.parallel_for(static_cast<int64_t>(parts.size()), Priority::normal, [&](int64_t i) {
-      Job::Part& part = parts[static_cast<size_t>(i)];
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      context.flags = part.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-      switch (job.mode) {
-        case EmbreeMode::single:
-          for (RTCRayHit& ray : part.now.singles) {
-            if (part.any_hit) {
-              rtcOccluded1(state_->scene, &context, &ray.ray);
-            } else {
-              rtcIntersect1(state_->scene, &context, &ray);
-            }
-          }
-          break;
-        case EmbreeMode::packets:
-          for (size_t k = 0; k < part.now.packets.size(); ++k) {
-            alignas(64) int valid[kPacket];
-            for (size_t lane = 0; lane < kPacket; ++lane) valid[lane] = k * kPacket + lane < part.count ? -1 : 0;
-            if (part.any_hit) {
-              rtcOccluded16(valid, state_->scene, &context, &part.now.packets[k].ray);
-            } else {
-              rtcIntersect16(valid, state_->scene, &context, &part.now.packets[k]);
-            }
-          }
-          break;
-        case EmbreeMode::stream:
-          if (part.any_hit) {
-            rtcOccluded1M(state_->scene, &context, &part.now.singles[0].ray, static_cast<unsigned>(part.count),
-                          sizeof(RTCRayHit));
-          } else {
-            rtcIntersect1M(state_->scene, &context, part.now.singles.data(), static_cast<unsigned>(part.count),
-                           sizeof(RTCRayHit));
-          }
-          break;
+void EmbreeTracer::trace(const Job& job, const Part& part, Layout& now) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = part.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  switch (job.mode) {
+    case EmbreeMode::single:
+      for (RTCRayHit& ray : now.singles) {
+        if (part.any_hit) {
+          rtcOccluded1(state_->scene, &context, &ray.ray);
+        } else {
+          rtcIntersect1(state_->scene, &context, &ray);
+        }
       }
-    });
+      break;
+    case EmbreeMode::packets:
+      for (size_t k = 0; k < now.packets.size(); ++k) {
+        alignas(64) int valid[kPacket];
+        for (size_t lane = 0; lane < kPacket; ++lane) valid[lane] = k * kPacket + lane < part.count ? -1 : 0;
+        if (part.any_hit) {
+          rtcOccluded16(valid, state_->scene, &context, &now.packets[k].ray);
+        } else {
+          rtcIntersect16(valid, state_->scene, &context, &now.packets[k]);
+        }
+      }
+      break;
+    case EmbreeMode::stream:
+      if (part.any_hit) {
+        rtcOccluded1M(state_->scene, &context, &now.singles[0].ray, static_cast<unsigned>(part.count),
+                      sizeof(RTCRayHit));
+      } else {
+        rtcIntersect1M(state_->scene, &context, now.singles.data(), static_cast<unsigned>(part.count),
+                       sizeof(RTCRayHit));
+      }
+      break;
   }
-  return 1e-3 * ms_since(start);
 }
 
-double EmbreeTracer::differing(const Job& job, const std::vector<std::vector<Hit>>& hits) const {
-  int64_t rays = 0, others = 0;
-  for (size_t b = 0; b < hits.size(); ++b) {
-    const Job::Part& part = job.waves[0][b];
-    for (size_t i = 0; i < hits[b].size(); ++i, ++rays) {
+double EmbreeTracer::run(const Job& job, TilePool& pool) const {
+  SpentTime spent;
+  pool.parallel_for(static_cast<int64_t>(job.pixels.size()), Priority::normal, [&](int64_t i) {
+    thread_local Layout now;
+    for (const Part& part : job.pixels[static_cast<size_t>(i)]) {
+      now = part.layout;
+      spent.spend([&] { trace(job, part, now); });
+    }
+  });
+  return spent.seconds() / pool.thread_count();
+}
+
+double EmbreeTracer::differing(const Job& job, const CompiledScene& scene, const FrameWaves& frame) const {
+  int64_t count = 0, others = 0;
+  for (size_t b = 0; b < frame.size(); ++b) {
+    const Part& part = job.pixels[b][0];
+    Layout now = part.layout;
+    trace(job, part, now);
+    std::vector<Hit> hits(part.count);
+    trace_closest(scene, frame[b][0].rays, hits);
+    for (size_t i = 0; i < hits.size(); ++i, ++count) {
       const bool is_packed = job.mode == EmbreeMode::packets;
-      const uint32_t body =
-          is_packed ? part.now.packets[i / kPacket].hit.geomID[i % kPacket] : part.now.singles[i].hit.geomID;
-      const uint32_t prim =
-          is_packed ? part.now.packets[i / kPacket].hit.primID[i % kPacket] : part.now.singles[i].hit.primID;
-      others += body != hits[b][i].body || (hits[b][i].is_hit() && prim != hits[b][i].prim);
+      const uint32_t body = is_packed ? now.packets[i / kPacket].hit.geomID[i % kPacket] : now.singles[i].hit.geomID;
+      const uint32_t prim = is_packed ? now.packets[i / kPacket].hit.primID[i % kPacket] : now.singles[i].hit.primID;
+      others += body != hits[i].body || (hits[i].is_hit() && prim != hits[i].prim);
     }
   }
-  return 100.0 * static_cast<double>(others) / static_cast<double>(std::max<int64_t>(1, rays));
+  return 100.0 * static_cast<double>(others) / static_cast<double>(std::max<int64_t>(1, count));
 }
 
 }  // namespace tilelight::bench

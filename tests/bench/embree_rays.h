@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Embree 3 on the triangles of a compiled scene: all bodies in one scene, built at medium quality, the rays in its own
-// layouts, converted before anything is timed.
+// layouts, converted before anything is timed and copied to the cache before they are traced, as ours are.
 #pragma once
 
 #include <memory>
@@ -22,14 +22,18 @@ class EmbreeTracer {
   // Takes the rays. Those before the first reflection are told to be coherent.
   class Job;
   using JobPtr = std::shared_ptr<Job>;
-  JobPtr prepare(const std::vector<Wave>& waves, EmbreeMode mode) const;
-  // Seconds.
-  double run(Job& job, TilePool& pool) const;
-  // Of the last run, in percent: hits of the first wave that are not the (body, primitive) of `hits`.
-  double differing(const Job& job, const std::vector<std::vector<Hit>>& hits) const;
+  JobPtr prepare(const FrameWaves& frame, EmbreeMode mode) const;
+  // Seconds that a thread of the pool took on average.
+  double run(const Job& job, TilePool& pool) const;
+  // In percent: primary rays that do not hit the (body, primitive) that ours do.
+  double differing(const Job& job, const CompiledScene& scene, const FrameWaves& frame) const;
 
  private:
   struct State;
+  struct Layout;
+  struct Part;
+  void trace(const Job& job, const Part& part, Layout& now) const;
+
   std::unique_ptr<State> state_;
 };
 

@@ -25,15 +25,6 @@ struct Times {
   std::vector<double> best() const { return median(packets) < median(stream) ? packets : stream; }
 };
 
-std::vector<std::vector<Hit>> hits_of(const CompiledScene& scene, const Wave& wave) {
-  std::vector<std::vector<Hit>> all;
-  for (const Batch& batch : wave.batches) {
-    all.emplace_back(batch.size());
-    trace_closest(scene, batch, all.back());
-  }
-  return all;
-}
-
 }  // namespace
 
 std::string compare_with_embree(const std::string& name, const std::string& document, TilePool& pool, int rounds,
@@ -63,7 +54,7 @@ std::string compare_with_embree(const std::string& name, const std::string& docu
     view.render.max_depth = kind.max_depth;
     const auto lit = compile_scene(of_kind, pool);
     const ViewPlan lit_plan = plan_view(*lit, view);
-    const std::vector<Wave> waves = waves_of(*lit, lit_plan, pool);
+    const FrameWaves waves = waves_of(*lit, lit_plan, pool);
     const std::array jobs = {embree.prepare(waves, EmbreeMode::single), embree.prepare(waves, EmbreeMode::packets),
                              embree.prepare(waves, EmbreeMode::stream)};
     Times times;
@@ -71,7 +62,7 @@ std::string compare_with_embree(const std::string& name, const std::string& docu
     film.grow(1);
     for (int round = 0; round < rounds; ++round) {
       times.frame.push_back(seconds_of([&] { render_frame(*lit, lit_plan, pool, film); }));
-      times.traced.push_back(seconds_of([&] { trace_waves(*lit, waves, pool); }));
+      times.traced.push_back(trace_waves(*lit, waves, pool));
       times.single.push_back(embree.run(*jobs[0], pool));
       times.packets.push_back(embree.run(*jobs[1], pool));
       times.stream.push_back(embree.run(*jobs[2], pool));
@@ -81,15 +72,13 @@ std::string compare_with_embree(const std::string& name, const std::string& docu
     std::vector<double> their_frame;
     for (size_t i = 0; i < best.size(); ++i) their_frame.push_back(times.frame[i] - times.traced[i] + best[i]);
     const Ratio whole = ratio_of(their_frame, times.frame), traced = ratio_of(best, times.traced);
-    const double others = embree.differing(*jobs[1], hits_of(*scene, waves[0]));
+    const double others = embree.differing(*jobs[1], *scene, waves);
     const auto ms = [](const std::vector<double>& s) { return 1e3 * median(s); };
     std::printf("%-16s %9.1f %9.1f %9.1f %9.1f %9.1f   %.2f (%.2f - %.2f) %.2f (%.2f - %.2f)  %.4f%%\n", kind.name,
                 ms(times.frame), ms(times.traced), ms(times.single), ms(times.packets), ms(times.stream), whole.middle,
                 whole.least, whole.most, traced.middle, traced.least, traced.most, others);
-    for (const Wave& wave : waves) {
-      std::printf("    depth %d %-8s %8.2f Mrays\n", wave.depth, wave.any_hit ? "shadow" : "closest",
-                  1e-6 * static_cast<double>(wave.rays()));
-    }
+    for (const WaveKind& of : kinds_of(waves))
+      std::printf("    %-16s %8.2f Mrays\n", of.name().c_str(), 1e-6 * static_cast<double>(of.rays));
     rows.push_back({{"frame", kind.name},
                     {"frame_ms", ms(times.frame)},
                     {"traced_ms", ms(times.traced)},

@@ -79,48 +79,54 @@ std::pair<uint32_t, uint32_t> trace(const std::vector<Ball>& balls, const Bounde
 }  // namespace
 
 std::string compare_with_textbook(const std::string& name, const std::string& document, TilePool& pool, int rounds) {
-  constexpr size_t kEvery = 64;  // of the batches: all rays would take minutes
+  constexpr size_t kEvery = 256;  // all rays would take minutes
   const ParsedScene parsed = parse_scene(document, Limits{}).value();
   const auto scene = compile_scene(parsed.scene, pool);
   const ViewPlan plan = plan_view(*scene, parsed.view);
   const std::vector<Ball> balls = balls_of(*scene);
-  std::printf("\n%s: %lld triangles, one batch of rays in %zu\n%-18s %10s %14s %14s   %-24s %s\n", name.c_str(),
+  std::printf("\n%s: %lld triangles, one part of the rays in %zu\n%-18s %10s %14s %14s   %-24s %s\n", name.c_str(),
               static_cast<long long>(plan.plan.triangles_instanced), kEvery, "rays", "rays", "ours Mrays/s",
               "book Mrays/s", "book / ours, time", "other answers");
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Wave& all : waves_of(*scene, plan, pool)) {
-    Wave wave{all.depth, all.any_hit, {}};
-    for (size_t i = 0; i < all.batches.size(); i += kEvery) wave.batches.push_back(all.batches[i]);
+  const FrameWaves frame = waves_of(*scene, plan, pool);
+  for (const WaveKind& kind : kinds_of(frame)) {
+    const FrameWaves some = only(frame, kind, kEvery);
     std::vector<double> ours_s, book_s;
-    int64_t others = 0;
+    int64_t others = 0, count = 0;
     for (int round = 0; round < rounds; ++round) {
-      ours_s.push_back(seconds_of([&] { trace_waves(*scene, {wave}, pool); }));
-      std::vector<std::vector<std::pair<uint32_t, uint32_t>>> answers(wave.batches.size());
-      book_s.push_back(seconds_of([&] {
-        pool.parallel_for(static_cast<int64_t>(wave.batches.size()), Priority::normal, [&](int64_t i) {
-          const auto at = static_cast<size_t>(i);
-          for (const BoundedRay& ray : wave.batches[at]) answers[at].push_back(trace(balls, ray, wave.any_hit));
+      ours_s.push_back(trace_waves(*scene, some, pool));
+      std::vector<std::vector<std::pair<uint32_t, uint32_t>>> answers(some.size());
+      SpentTime spent;
+      pool.parallel_for(static_cast<int64_t>(some.size()), Priority::normal, [&](int64_t i) {
+        const auto at = static_cast<size_t>(i);
+        spent.spend([&] {
+          for (const Wave& wave : some[at])
+            for (const BoundedRay& ray : wave.rays) answers[at].push_back(trace(balls, ray, wave.any_hit));
         });
-      }));
-      others = 0;
-      for (size_t b = 0; b < wave.batches.size(); ++b) {
-        std::vector<Hit> hits(wave.batches[b].size());
-        trace_closest(*scene, wave.batches[b], hits);
-        for (size_t i = 0; i < hits.size(); ++i) {
-          const bool is_blocked = answers[b][i].first != kNone;
-          others += wave.any_hit ? is_blocked != hits[i].is_hit()
-                                 : answers[b][i] != std::pair(hits[i].body, hits[i].is_hit() ? hits[i].prim : 0);
+      });
+      book_s.push_back(spent.seconds() / pool.thread_count());
+      others = count = 0;
+      for (size_t b = 0; b < some.size(); ++b) {
+        size_t at = 0;
+        for (const Wave& wave : some[b]) {
+          std::vector<Hit> hits(wave.rays.size());
+          trace_closest(*scene, wave.rays, hits);
+          for (const Hit& hit : hits) {
+            const auto& answer = answers[b][at++];
+            others += wave.any_hit ? (answer.first != kNone) != hit.is_hit()
+                                   : answer != std::pair(hit.body, hit.is_hit() ? hit.prim : 0);
+          }
         }
+        count += static_cast<int64_t>(at);
       }
     }
     const Ratio ratio = ratio_of(book_s, ours_s);
-    const auto rays = static_cast<double>(wave.rays());
-    const std::string kind = "depth " + std::to_string(wave.depth) + (wave.any_hit ? " shadow" : " closest");
-    std::printf("%-18s %10.0f %14.2f %14.4f   %.0f (%.0f - %.0f)%*s%.4f%%\n", kind.c_str(), rays,
+    const auto rays = static_cast<double>(count);
+    std::printf("%-18s %10.0f %14.2f %14.4f   %.0f (%.0f - %.0f)%*s%.4f%%\n", kind.name().c_str(), rays,
                 1e-6 * rays / median(ours_s), 1e-6 * rays / median(book_s), ratio.middle, ratio.least, ratio.most, 8,
                 "", 100.0 * static_cast<double>(others) / rays);
-    rows.push_back({{"rays", kind},
-                    {"count", wave.rays()},
+    rows.push_back({{"rays", kind.name()},
+                    {"count", count},
                     {"ours_mrays_s", 1e-6 * rays / median(ours_s)},
                     {"textbook_mrays_s", 1e-6 * rays / median(book_s)},
                     {"time_ratio", {ratio.least, ratio.middle, ratio.most}},

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -15,6 +17,21 @@ inline double seconds_of(const std::function<void()>& work) {
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+// Time that several threads spend on one kind of work, with other work between.
+class SpentTime {
+ public:
+  template <class Work>
+  void spend(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    spent_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+  }
+  double seconds() const { return 1e-9 * static_cast<double>(spent_.load()); }
+
+ private:
+  std::atomic<int64_t> spent_ = 0;
+};
 
 // REQUIRES: at least one.
 inline double median(std::vector<double> values) {

@@ -3,7 +3,6 @@
 // that several tracers can be timed on the same rays.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,21 +11,34 @@
 
 namespace tilelight::bench {
 
-using Batch = std::vector<BoundedRay>;
-
+// Rays that are asked for together: of a few hundred neighbouring pixels, and of one light if they are shadow rays.
 struct Wave {
   int depth = 0;         // reflections before
   bool any_hit = false;  // shadow rays
-  std::vector<Batch> batches;
-
-  int64_t rays() const;
+  std::vector<BoundedRay> rays;
 };
+// The waves of some pixels: primary rays, their shadow rays light by light, the first reflections, ... as deep as the
+// view has them.
+using PixelWaves = std::vector<Wave>;
+using FrameWaves = std::vector<PixelWaves>;
 
-// The waves of one sample a pixel: primary rays, their shadow rays light by light, the first reflections, ... as deep
-// as the plan's view has them. REQUIRES: nothing in the scene lets light through.
-std::vector<Wave> waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
+// Of one sample a pixel. REQUIRES: nothing in the scene lets light through.
+FrameWaves waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
 
-// By our own tracer.
-void trace_waves(const CompiledScene& scene, const std::vector<Wave>& waves, TilePool& pool);
+// One kind of rays of a frame.
+struct WaveKind {
+  int depth = 0;
+  bool any_hit = false;
+  int64_t rays = 0;
+
+  std::string name() const;  // as "depth 1 shadow"
+};
+std::vector<WaveKind> kinds_of(const FrameWaves& frame);
+// The rays of one kind alone, of every n-th pixels that have some.
+FrameWaves only(const FrameWaves& frame, const WaveKind& kind, size_t every);
+
+// By our own tracer, with all threads of the pool; seconds that a thread took on average. Rays lie in the cache, as
+// they do where a kernel has just made them.
+double trace_waves(const CompiledScene& scene, const FrameWaves& frame, TilePool& pool);
 
 }  // namespace tilelight::bench
