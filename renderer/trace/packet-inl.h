@@ -35,6 +35,7 @@ class PacketWalk {
   void take(std::span<const BoundedRay> rays) {
     input_ = rays;
     inside_[0].body = inside_[1].body = kNone;
+    lone_set_ = 0;
     read_rays(rays, given_);
     // What is met near the ray's end may lie before or behind it: as if another hit were there.
     make_lanes(given_, rays_, lane_.t_sure, lane_.low, lane_.high);
@@ -134,6 +135,7 @@ class PacketWalk {
   void walk() {
     constexpr size_t kFewLanes = kAnyHit ? 6 : 3;  // walked apart
     const TriangleTree& tree = scene_.tree;
+    const TreePlaces places(tree);
     // Apart, for what is stored as two numbers and read as one waits for its stores.
     struct {
       uint32_t node[kStackSize];
@@ -148,22 +150,21 @@ class PacketWalk {
       if (t > t_most) continue;
       const uint32_t next = stack.node[top];
       const LaneBits lanes = stack.lanes[top];
-      if (hwy::PopCount(lanes) <= kFewLanes) {
-        leave_apart(lanes, next, t);
-        if (!kAnyHit && next & WideBvh::kLeafBit) {  // the nearer the end, the less is left to visit
-          walk_apart();
-          t_most = greatest_of<kCount>(lane_.high + rays_.first);
-        }
-        continue;
-      }
+      const bool is_few = hwy::PopCount(lanes) <= kFewLanes;
       if (next & WideBvh::kLeafBit) {
         const uint32_t leaf = next & ~WideBvh::kLeafBit;
         if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
           visit_body(leaf & ~TriangleTree::kBodyBit, lanes);
+        } else if (is_few) {
+          visit_block_apart(tree.blocks[leaf], lanes);
         } else {
           visit_block<kCount>(tree.blocks[leaf], lanes);
         }
         t_most = greatest_of<kCount>(lane_.high + rays_.first);
+        continue;
+      }
+      if (is_few) {
+        leave_apart(lanes, next, t);
         continue;
       }
       const WideBvh::Node& node = tree.nodes[next];
@@ -175,7 +176,7 @@ class PacketWalk {
         const int c = hwy::Num0BitsBelowLS1Bit_Nonzero32(boxes);
         const LaneBits met = lanes_met<kCount>(rays_, node, c, lane_.high);
         if (met == 0) continue;
-        prefetch(tree, node.child[c]);
+        prefetch_any(places, node.child[c]);
         int place = top++;
         for (; !kAnyHit && place > first && stack.t[place - 1] < entry[c]; --place) {
           stack.node[place] = stack.node[place - 1], stack.t[place] = stack.t[place - 1];
@@ -198,14 +199,19 @@ class PacketWalk {
     }
   };
 
+  LoneRay& lone_ray(size_t lane) {
+    if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, lane, stacks_.get() + lane * stack_size_);
+    lone_set_ |= bit_of(lane);
+    return lone_[lane];
+  }
+
   // Leaves a node to lanes that will walk by themselves, when the packet has come to its end: then many do, and their
   // ends lie nearer.
   HWY_NOINLINE void leave_apart(LaneBits lanes, uint32_t node, float t) {
     bool is_full = false;
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
       const size_t lane = lowest_of(rest);
-      LoneRay& ray = lone_[lane];
-      if (!(apart_ >> lane & 1)) ray.set(rays_, lane, stacks_.get() + lane * stack_size_);
+      LoneRay& ray = lone_ray(lane);
       ray.push(node, t);
       is_full |= ray.top == kRoots;
     }
@@ -239,10 +245,8 @@ class PacketWalk {
         if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
           visit_body(leaf & ~TriangleTree::kBodyBit, bit_of(lane));
         } else {
-          LoneSift& sift = sifts_[lane];
-          sift_block<kAnyHit>(tree.blocks[leaf], lone_[lane], lane_.t_sure[lane], lane_.low[lane], lane_.high[lane],
-                              sift);
-          met.add_if((sift.surely | sift.unsure) != 0, lane);
+          sift(tree.blocks[leaf], lone_[lane], lane);
+          met.add_if(is_met(lane), lane);
         }
       }
       for (size_t i = 0; i < met.count; ++i)
@@ -269,6 +273,16 @@ class PacketWalk {
   }
   static HWY_INLINE uint32_t leaf_of(const LoneRay& ray) { return ray.stack[ray.top].node & ~WideBvh::kLeafBit; }
 
+  void visit_block_apart(const TriangleBlock& block, LaneBits lanes) {
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) sift(block, lone_ray(lowest_of(rest)), lowest_of(rest));
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+      if (is_met(lowest_of(rest))) take_hits(block, sifts_[lowest_of(rest)], lowest_of(rest));
+    }
+  }
+  HWY_INLINE void sift(const TriangleBlock& block, const LoneRay& ray, size_t lane) {
+    sift_block<kAnyHit>(block, ray, lane_.t_sure[lane], lane_.low[lane], lane_.high[lane], sifts_[lane]);
+  }
+  bool is_met(size_t lane) const { return (sifts_[lane].surely | sifts_[lane].unsure) != 0; }
   HWY_INLINE void take_hits(const TriangleBlock& block, const LoneSift& sifted, size_t lane) {
     for (uint32_t met = sifted.surely; met != 0; met &= met - 1) {
       const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
@@ -279,6 +293,7 @@ class PacketWalk {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], lane_.low[lane]);
         lane_.low[lane] = sifted.low[k], lane_.high[lane] = sifted.high[k];
         lane_.body[lane] = block.body[k], lane_.prim[lane] = block.prim[k];
+        hwy::Prefetch(&scene_.bodies[block.body[k]].mesh->triangles[block.prim[k]]);  // for finish
       } else {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], sifted.low[k]);
       }
@@ -331,6 +346,11 @@ class PacketWalk {
       prims[h] = hn::PromoteTo(bits_tag, hn::Load(int_tag, lane_.prim + first + h * kStep));
       for (auto& v : vertex)
         for (auto& k : v) k[h] = hn::Zero(tag);
+    }
+    for (LaneBits rest = lanes & lone_set_; rest != 0;
+         rest &= rest - 1) {  // who walked apart has a triangle of its own
+      const auto& triangle = mesh.triangles[lane_.prim[lowest_of(rest)]];
+      for (int v = 0; v < 3; ++v) hwy::Prefetch(&mesh.positions[triangle[v]]);
     }
     for (LaneBits rest = lanes; rest != 0;) {  // triangle by triangle: neighbours mostly meet the same
       const uint32_t prim = lane_.prim[lowest_of(rest)];
@@ -503,7 +523,8 @@ class PacketWalk {
   alignas(64) double t_[kPacketRays], b0_[kPacketRays], b1_[kPacketRays];  // of the best hit; of triangles at the end
   MeshLanes inside_[2];
   LoneRay lone_[kPacketRays];
-  LaneBits apart_ = 0;  // the lanes to which something is left
+  LaneBits lone_set_ = 0;  // the lanes whose lone_ is set
+  LaneBits apart_ = 0;     // those to which something is left
   LoneSift sifts_[kPacketRays];
   size_t stack_size_;                    // of a lane; the last node's children are written eight at once
   std::unique_ptr<LoneEntry[]> stacks_;  // left as it is where nothing is pushed
