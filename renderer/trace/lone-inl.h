@@ -9,7 +9,7 @@
 #define TILELIGHT_LONE_INL_H
 #endif
 
-#include "renderer/trace/packet_rays-inl.h"
+#include "renderer/trace/sure_triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
@@ -27,11 +27,11 @@ struct LoneRay {
   int near_at[3], far_at[3];    // where a node's near and far planes lie, among its bounds
   int kx, ky, kz;               // kz: of the longest component, so that no slope exceeds 1
   float ox, oy, oz, sx, sy, sz;
-  float t_min, tie;
+  float t_min, tie, misplaced;
   LoneEntry* stack;  // the nearest are at the top
   int top;
 
-  void set(const PacketRays& rays, size_t lane, LoneEntry* room) {
+  void set(const PacketRays& rays, const GivenRays& given, size_t lane, LoneEntry* room) {
     t_min = rays.t_min[lane], tie = rays.tie[lane];
     const float d[3] = {rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,11 @@ struct LoneRay {
     kz = 2 * is_z + is_y;
     kx = kz == 2 ? 0 : kz + 1, ky = kz == 0 ? 2 : kz - 1;
     ox = rays.origin[kx][lane], oy = rays.origin[ky][lane], oz = rays.origin[kz][lane];
-    sz = inverse[kz], sx = d[kx] * sz, sy = d[ky] * sz;
+    const double over = 1.0 / given.direction[kz][lane];
+    misplaced = misplacement(std::max({std::abs(ox), std::abs(oy), std::abs(oz)}), rays.strayed);
+    sz = inverse[kz];
+    sx = static_cast<float>(given.direction[kx][lane] * over),
+    sy = static_cast<float>(given.direction[ky][lane] * over);
     stack = room, top = 0;
   }
   void push(uint32_t what, float at) { stack[top++] = {what, at}; }
@@ -154,17 +158,23 @@ HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float
   const V ox = hn::Set(tag, ray.ox), oy = hn::Set(tag, ray.oy), oz = hn::Set(tag, ray.oz);
   const V sx = hn::Set(tag, ray.sx), sy = hn::Set(tag, ray.sy), sz = hn::Set(tag, ray.sz);
   for (size_t i = 0; i < 8; i += hn::MaxLanes(tag)) {
-    V x[3], y[3], t[3], most = hn::Zero(tag);
+    V x[3], y[3], t[3], most = hn::Zero(tag), along = hn::Zero(tag);
     for (int v = 0; v < 3; ++v) {
       const V z = hn::Sub(hn::Load(tag, block.vertex[v][ray.kz] + i), oz);
       x[v] = hn::NegMulAdd(sx, z, hn::Sub(hn::Load(tag, block.vertex[v][ray.kx] + i), ox));
       y[v] = hn::NegMulAdd(sy, z, hn::Sub(hn::Load(tag, block.vertex[v][ray.ky] + i), oy));
       t[v] = hn::Mul(sz, z);
       most = hn::Max(most, hn::Add(hn::Abs(x[v]), hn::Abs(y[v])));
+      along = hn::Max(along, hn::Abs(z));
     }
     const V u = hn::MulSub(x[2], y[1], hn::Mul(y[2], x[1])), v = hn::MulSub(x[0], y[2], hn::Mul(y[0], x[2])),
             w = hn::MulSub(x[1], y[0], hn::Mul(y[1], x[0]));
-    const V bound = hn::Mul(hn::Set(tag, 2.0f * kSheared), most);
+    // As of BlockEdges, but that each vertex has roundings of its own: a weight is off by 2 most times 6 for those of
+    // vertex and origin, 5 |z| for slope, difference and product, 4 most for differences, and 2 most for those of the
+    // cross.
+    const V units =
+        hn::MulAdd(hn::Set(tag, 5.0f), along, hn::MulAdd(hn::Set(tag, 6.0f), most, hn::Set(tag, 2.0f * ray.misplaced)));
+    const V bound = hn::MulAdd(hn::Mul(units, hn::Set(tag, 2.0f * BlockEdges::kUnit)), most, hn::Set(tag, 0x1p-37f));
     const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
     const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));
@@ -172,9 +182,9 @@ HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float
     const V high = hn::Set(tag, t_max);
     auto maybe = hn::Or(hn::Ge(least, hn::Neg(bound)), hn::Le(greatest, bound));
     maybe = hn::And(maybe, hn::And(hn::Le(hn::Sub(nearest, slack), high), hn::Ge(farthest, hn::Set(tag, ray.t_min))));
-    const V twice = hn::Add(bound, bound);
-    auto surely = hn::And(maybe, hn::Or(hn::Gt(least, twice), hn::Lt(greatest, hn::Neg(twice))));
-    // Each weight is off by less than its bound, and their sum is at least six bounds.
+    const V more = hn::Mul(bound, hn::Set(tag, 1.125f));
+    auto surely = hn::And(maybe, hn::Or(hn::Gt(least, more), hn::Lt(greatest, hn::Neg(more))));
+    // Each weight is off by less than its bound, and their sum by three.
     const V inverse = hn::Div(hn::Set(tag, 1.0f), hn::Add(u, hn::Add(v, w)));
     const V at = hn::Mul(hn::MulAdd(u, t[0], hn::MulAdd(v, t[1], hn::Mul(w, t[2]))), inverse);
     const V off =

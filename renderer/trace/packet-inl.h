@@ -101,7 +101,7 @@ class PacketWalk {
   template <size_t kCount>
   LaneBits walk_range(size_t first) {
     if (first >= input_.size()) return 0;
-    if (bound_lanes<kCount>(first, rays_)) {
+    if (bound_lanes<kCount>(first, given_, rays_)) {
       walk<kCount>();
       return 0;
     }
@@ -200,7 +200,7 @@ class PacketWalk {
   };
 
   LoneRay& lone_ray(size_t lane) {
-    if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, lane, stacks_.get() + lane * stack_size_);
+    if (!(lone_set_ >> lane & 1)) lone_[lane].set(rays_, given_, lane, stacks_.get() + lane * stack_size_);
     lone_set_ |= bit_of(lane);
     return lone_[lane];
   }

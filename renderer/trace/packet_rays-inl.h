@@ -126,7 +126,9 @@ struct PacketRays {
   float t_least;
   int kx = 0, ky = 1, kz = 2;
   float slope_middle[2], slope_spread;  // how far the two slopes, together, are from these
-  float slack = 0.0f;                   // points in the sheared plane are off by less
+  float steepest = 1.0f;                // no slope is more, nor 1
+  float strayed = 0.0f;                 // by how many 2^-25 the lines may lie elsewhere, from far away
+  float misplaced = 0.0f;               // by how many a vertex may be from an origin, before it is sheared
   bool is_near = true;                  // no origin is so far away that the boxes' width would not cover its rounding
 };
 
@@ -151,6 +153,25 @@ HWY_INLINE hn::Vec<LaneTag> narrowed(const DoubleVec (&wide)[kHalves]) {
   const hn::Rebind<float, DoubleTag> narrow;
   return hn::Combine(LaneTag(), hn::DemoteTo(narrow, wide[1]), hn::DemoteTo(narrow, wide[0]));
 #endif
+}
+
+HWY_INLINE DoubleVec widened(hn::Vec<LaneTag> narrow, [[maybe_unused]] size_t half) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::PromoteTo(DoubleTag(), narrow);
+#else
+  const hn::Rebind<float, DoubleTag> of_half;
+  return hn::PromoteTo(DoubleTag(), half == 0 ? hn::LowerHalf(of_half, narrow) : hn::UpperHalf(of_half, narrow));
+#endif
+}
+// The quotients over / under of a register of lanes, rounded once. inverse: about 1 / under.
+HWY_INLINE hn::Vec<LaneTag> slope_of(const double* over, const double* under, hn::Vec<LaneTag> inverse) {
+  const DoubleTag wide;
+  DoubleVec numerators[kHalves], rests[kHalves];
+  for (size_t h = 0; h < kHalves; ++h) numerators[h] = hn::Load(wide, over + h * hn::MaxLanes(wide));
+  const auto rough = hn::Mul(narrowed(numerators), inverse);
+  for (size_t h = 0; h < kHalves; ++h)
+    rests[h] = hn::NegMulAdd(widened(rough, h), hn::Load(wide, under + h * hn::MaxLanes(wide)), numerators[h]);
+  return hn::MulAdd(narrowed(rests), inverse, rough);
 }
 
 // What each lane needs by itself. t_sure: from here on a hit lies ahead without any doubt; the ray's end lies between
@@ -199,7 +220,11 @@ HWY_INLINE void make_lanes(const GivenRays& given, PacketRays& out, float* t_sur
     hn::Store(hn::IfThenElse(is_idle, end, hn::Add(end, filter_slack(end))), tag, high + i);
     hn::Store(hn::Sub(end, filter_slack(end)), tag, low + i);
   }
-  out.is_near = hn::AllTrue(wide, hn::Lt(farthest, hn::Set(wide, kFarthest * kFarthest)));
+  const auto is_within = [&](double distance) HWY_ATTR {
+    return hn::AllTrue(wide, hn::Lt(farthest, hn::Set(wide, distance * distance)));
+  };
+  out.is_near = is_within(kFarthest);
+  out.strayed = is_within(0x1p11) ? 0x1p-4f : 2.0f;  // as `strayed` tells
 }
 
 template <class Mask>
@@ -225,6 +250,9 @@ HWY_INLINE LaneBits lanes_equal(const uint32_t* row, uint32_t what) {
   }
   return lanes;
 }
+
+// The roundings of a vertex and of an origin with components up to this, in 2^-25.
+HWY_INLINE float misplacement(float component, float strayed) { return 1.0f + 2.0f * component + strayed; }
 
 using FourTag = hn::CappedTag<float, 4>;
 // Of each of four rows of lanes, through `merge`, into out[0..3]: four at once take half the steps of one by one.
@@ -258,7 +286,7 @@ HWY_INLINE void merge_four(const float* a, const float* b, const float* c, const
 
 // What bounds kCount lanes. False: they go too many ways to be walked together.
 template <size_t kCount>
-HWY_INLINE bool bound_lanes(size_t first, PacketRays& out) {
+HWY_INLINE bool bound_lanes(size_t first, const GivenRays& given, PacketRays& out) {
   out.first = first;
   const LaneTag tag;
   const FourTag four;
@@ -297,8 +325,8 @@ HWY_INLINE bool bound_lanes(size_t first, PacketRays& out) {
   out.kx = out.kz == 2 ? 0 : out.kz + 1, out.ky = out.kz == 0 ? 2 : out.kz - 1;
   for (size_t i = first; i < first + kCount; i += hn::MaxLanes(tag)) {
     const auto inverse = hn::Load(tag, out.inverse[out.kz] + i);
-    hn::Store(hn::Mul(hn::Load(tag, out.direction[out.kx] + i), inverse), tag, out.slope[0] + i);
-    hn::Store(hn::Mul(hn::Load(tag, out.direction[out.ky] + i), inverse), tag, out.slope[1] + i);
+    hn::Store(slope_of(given.direction[out.kx] + i, given.direction[out.kz] + i, inverse), tag, out.slope[0] + i);
+    hn::Store(slope_of(given.direction[out.ky] + i, given.direction[out.kz] + i, inverse), tag, out.slope[1] + i);
   }
   const float middle_z = d_low[out.kz] + d_high[out.kz];
   out.slope_middle[0] = (d_low[out.kx] + d_high[out.kx]) / middle_z;
@@ -306,8 +334,11 @@ HWY_INLINE bool bound_lanes(size_t first, PacketRays& out) {
   const float width[3] = {wx, wy, wz};
   const float turned = (std::abs(out.slope_middle[0]) + std::abs(out.slope_middle[1])) * width[out.kz];
   out.slope_spread = (width[out.kx] + width[out.ky] + turned) * 0.5001f / most;
-  const float slope = std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / most;
-  out.slack = kSheared * std::max(1.0f, slope);  // what is rounded before it is sheared grows with the slope
+  float farthest = 0.0f;
+  for (int axis = 0; axis < 3; ++axis)
+    farthest = std::max(farthest, std::max(-out.origin_low[axis], out.origin_high[axis]));
+  out.misplaced = misplacement(farthest, out.strayed);
+  out.steepest = std::max(1.0f, std::max(out.direction_most[out.kx], out.direction_most[out.ky]) / most);
   return true;
 }
 

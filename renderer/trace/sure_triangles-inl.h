@@ -27,38 +27,47 @@ struct LaneHits {
 // In the plane across the ray, sheared along kz, vertex 0 lies at p and the others at p + e and p + f. In the point
 // that the ray meets the vertices weigh e x f - f x p - p x e, f x p and p x e; together e x f.
 //
-// How far these may be off: a coordinate of p by d = kSheared / 2.14 (for slopes up to 1; the slack grows with them),
-// one of e or f by (4 + 16 L) 2^-25, L their longest component: roundings of four coordinates, and by size those of the
-// difference, the slope and the product. Let l be the longer |x| + |y| of e and f, and m = |p.x| + |p.y| + l. Then the
-// first weight, whose vertices are off by both, is off by no more than 2 (d + (4 + 16 L) 2^-25) m, and by 11 l m 2^-24
-// for the roundings of crosses and differences; the others and the whole by less.
+// How far these may be off, in units of 2^-25, S being the steepest slope (or 1) and Z the greatest distance of a
+// vertex from an origin along kz: p + e and p + f, which decide the first weight, by (1 + S) 3 for the roundings of a
+// vertex and an origin, by S Z for that of a slope, by 4 S Z + 4 |p| + 8 L + 2 l for those of differences and products,
+// where L is the longest component of e and f, and l the longer |x| + |y|. Let m be |p.x| + |p.y| + l. The weight is
+// off by that times 2 m, and by 22 l m for the roundings of crosses and their differences; the others and the sum are
+// off by less.
 struct BlockEdges {
-  alignas(32) float e[3][8], f[3][8];        // along kx, ky and kz
-  alignas(32) float margin[8], smallest[8];  // weights are off by less than margin * (|p.x| + |p.y|) + smallest
+  static constexpr float kUnit = 1.1f * 0x1p-25f;
+  alignas(32) float e[3][8], f[3][8];  // along kx, ky and kz
+  alignas(32) float length[8];         // l
+  alignas(32) float off[8];            // but for |p|
 
   BlockEdges(const TriangleBlock& block, const PacketRays& rays) {
     const FloatTag tag;
     const int axes[3] = {rays.kx, rays.ky, rays.kz};
-    const auto middle_x = hn::Set(tag, rays.slope_middle[0]), middle_y = hn::Set(tag, rays.slope_middle[1]),
-               spread = hn::Set(tag, rays.slope_spread);
+    const auto number = [](float of) HWY_ATTR { return hn::Set(FloatTag(), of); };
+    const auto middle_x = number(rays.slope_middle[0]), middle_y = number(rays.slope_middle[1]),
+               spread = number(rays.slope_spread);
     for (size_t i = 0; i < 8; i += hn::MaxLanes(tag)) {
-      auto component = hn::Zero(tag), length = hn::Zero(tag);  // L and l
+      const auto vertex = [&](int v, int k) HWY_ATTR { return hn::Load(tag, block.vertex[v][axes[k]] + i); };
+      auto component = hn::Zero(tag), longer = hn::Zero(tag);
       for (int v = 1; v < 3; ++v) {
         auto& to = v == 1 ? e : f;
         BoxVec edge[3];
         for (int k = 0; k < 3; ++k) {
-          edge[k] = hn::Sub(hn::Load(tag, block.vertex[v][axes[k]] + i), hn::Load(tag, block.vertex[0][axes[k]] + i));
+          edge[k] = hn::Sub(vertex(v, k), vertex(0, k));
           hn::Store(edge[k], tag, to[k] + i);
           component = hn::Max(component, hn::Abs(edge[k]));
         }
         const auto x = hn::NegMulAdd(middle_x, edge[2], edge[0]), y = hn::NegMulAdd(middle_y, edge[2], edge[1]);
-        length = hn::Max(length, hn::MulAdd(spread, hn::Abs(edge[2]), hn::Add(hn::Abs(x), hn::Abs(y))));
+        longer = hn::Max(longer, hn::MulAdd(spread, hn::Abs(edge[2]), hn::Add(hn::Abs(x), hn::Abs(y))));
       }
-      const auto part =
-          hn::MulAdd(hn::Set(tag, 0.55f), component, hn::MulAdd(hn::Set(tag, 0.35f), length, hn::Set(tag, 1.1f)));
-      const auto off = hn::Mul(part, hn::Set(tag, rays.slack));
-      hn::Store(off, tag, margin + i);
-      hn::Store(hn::MulAdd(off, length, hn::Set(tag, 0x1p-38f)), tag, smallest + i);  // and what is off in both factors
+      const auto lowest = hn::Min(vertex(0, 2), hn::Min(vertex(1, 2), vertex(2, 2))),
+                 highest = hn::Max(vertex(0, 2), hn::Max(vertex(1, 2), vertex(2, 2)));
+      const auto along = hn::Max(hn::Sub(highest, number(rays.origin_low[rays.kz])),
+                                 hn::Sub(number(rays.origin_high[rays.kz]), lowest));
+      const float steepest = rays.steepest;
+      auto units = hn::MulAdd(number(5.0f * steepest), along, number((1.0f + steepest) * rays.misplaced));
+      units = hn::MulAdd(number(8.0f), component, hn::MulAdd(number(13.0f), longer, units));
+      hn::Store(longer, tag, length + i);
+      hn::Store(hn::Mul(units, number(2.0f * kUnit)), tag, off + i);
     }
   }
 };
@@ -86,8 +95,9 @@ struct LaneWeights {
     const auto cross = [](V ax, V ay, V bx, V by) HWY_ATTR { return hn::MulSub(ax, by, hn::Mul(ay, bx)); };
     v = cross(fx, fy, px, py), w = cross(px, py, ex, ey), sum = cross(ex, ey, fx, fy);
     u = hn::Sub(hn::Sub(sum, v), w);
-    bound =
-        hn::MulAdd(hn::Set(tag, edges.margin[k]), hn::Add(hn::Abs(px), hn::Abs(py)), hn::Set(tag, edges.smallest[k]));
+    const V m = hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), hn::Set(tag, edges.length[k]));
+    const V off = hn::MulAdd(hn::Set(tag, 8.0f * BlockEdges::kUnit), m, hn::Set(tag, edges.off[k]));
+    bound = hn::MulAdd(off, m, hn::Set(tag, 0x1p-37f));  // and what is off in both factors
   }
   // Whether all weights are above `least`, or all below its opposite.
   HWY_INLINE auto agree_beyond(V least) const {
@@ -142,8 +152,9 @@ struct SureTriangles {
       auto maybe = hn::LoadMaskBits(tag, bits);
       const LaneWeights weights(block, edges, k, rays, i);
       const V high = hn::Load(tag, lane.high + i);
-      auto surely = hn::And(maybe, weights.agree_beyond(hn::Add(weights.bound, weights.bound)));
-      // Each weight is off by less than its bound, and their sum, which is at least six bounds, by one.
+      auto surely = hn::And(maybe, weights.agree_beyond(hn::Mul(hn::Set(tag, 1.125f), weights.bound)));
+      // Each weight is off by less than its bound, and their sum, which is more than three, by no more: so a share of
+      // the sum is off by less than (1 + share) bound / sum.
       const V ez = hn::Set(tag, edges.e[2][k]), fz = hn::Set(tag, edges.f[2][k]);
       const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
       const V inverse = hn::Div(hn::Set(tag, 1.0f), weights.sum);
@@ -151,7 +162,7 @@ struct SureTriangles {
       const V range = hn::Mul(hn::Abs(sz), hn::Max(hn::Abs(ez), hn::Abs(fz)));
       const V size = hn::Add(hn::Add(hn::Abs(at), range), hn::Set(tag, 1.0f));
       const V slack = hn::MulAdd(hn::Set(tag, kFilterSlack), size, hn::Load(tag, rays.tie + i));
-      const V off = hn::MulAdd(hn::Mul(hn::Set(tag, 6.0f), weights.bound), hn::Mul(range, hn::Abs(inverse)), slack);
+      const V off = hn::MulAdd(hn::Mul(hn::Set(tag, 4.0f), weights.bound), hn::Mul(range, hn::Abs(inverse)), slack);
       const V low = hn::Sub(at, off), upper = hn::Add(at, off);
       const auto is_elsewhere = hn::Or(hn::Lt(upper, hn::Load(tag, rays.t_min + i)), hn::Gt(low, high));
       maybe = hn::AndNot(hn::And(surely, is_elsewhere), maybe);
