@@ -331,6 +331,72 @@ TEST_F(TraceRays, MeetInBundlesWhatTheyMeetOneByOneAndInMeshesTreesOfTheirOwn) {
   }
 }
 
+// The filter of packets knows how far its float numbers may be off. Here they are off by about as much as a ray is
+// from an edge: triangles large and tiny, near and far, thin and edge-on, and rays a few roundings beside their edges.
+TEST_F(TraceRays, AimedBesideEdgesMeetInBundlesWhatTheyMeetOneByOne) {
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto anywhere = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  constexpr uint32_t kTriangles = 3000;
+  MeshData soup;
+  for (uint32_t i = 0; i < kTriangles; ++i) {
+    const double size = std::ldexp(1.0, -static_cast<int>(i % 12)), thin = i % 5 == 0 ? 1e-3 : 1.0;
+    const Vec3 corner = 0.9 * anywhere(), e = size * anywhere();
+    for (const Vec3& p : {corner, corner + e, corner + 0.4 * e + thin * size * anywhere()}) {
+      soup.indices.push_back(static_cast<uint32_t>(soup.positions.size()));
+      soup.positions.push_back(glm::clamp(p, Vec3(-1.0), Vec3(1.0)));
+    }
+  }
+  Scene scene = scene_of_shapes({MeshShape{0}});
+  scene.meshes = {soup};
+  const auto compiled = compile_scene(scene, pool_);
+  ASSERT_EQ(compiled->bodies[0].tree, nullptr);  // merged
+  const auto in_scene = [&](const Vec3& p) { return (p - compiled->center) / compiled->units; };
+  std::vector<std::vector<BoundedRay>> bundles;
+  for (uint32_t i = 0; i < 12'000; ++i) {
+    const uint32_t* corners = &soup.indices[3 * (i % kTriangles)];
+    const Vec3 a = in_scene(soup.positions[corners[i / 7 % 3]]), b = in_scene(soup.positions[corners[(i / 7 + 1) % 3]]);
+    const double distance = std::ldexp(1.0, static_cast<int>(random() % 18) - 6);            // 0.016 to 2048
+    const Vec3 aside = i % 6 == 0 ? glm::normalize(b - a + 1e-3 * anywhere()) : anywhere();  // some look along the edge
+    const bool is_sparse = i % 4 == 3;                                                       // they go each its own way
+    std::vector<BoundedRay> rays;
+    for (int k = 0; k < 32; ++k) {
+      const Vec3 on_edge = glm::mix(a, b, 0.5 + 0.5 * unit(random));
+      const Vec3 aim = on_edge + std::ldexp(unit(random), -21 - static_cast<int>(random() % 8)) * anywhere();
+      const Vec3 eye = a + distance * (is_sparse ? anywhere() : aside);
+      rays.push_back({{eye, glm::normalize(aim - eye), {}}, k % 8 == 7 ? glm::length(aim - eye) : INFINITY});
+    }
+    bundles.push_back(rays);
+  }
+  std::vector<std::vector<Hit>> expected;
+  int met = 0, beside = 0;
+  for (const auto& rays : bundles) {
+    auto& hits = expected.emplace_back(rays.size());
+    for (size_t i = 0; i < rays.size(); ++i) trace_closest(*compiled, {&rays[i], 1}, {&hits[i], 1});
+    met += static_cast<int>(std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.is_hit(); }));
+    for (const Hit& h : hits) beside += h.is_hit() && std::min({h.b0, h.b1, 1.0 - h.b0 - h.b1}) < 1e-5;
+  }
+  EXPECT_GT(met, 100'000);
+  EXPECT_GT(beside, 20'000);
+  for (const std::string& isa : available_isas()) {
+    ASSERT_TRUE(select_isa(isa).has_value());
+    int differing = 0, blocked_otherwise = 0;
+    for (size_t b = 0; b < bundles.size(); ++b) {
+      std::vector<Hit> hits(bundles[b].size());
+      std::vector<uint8_t> is_blocked(bundles[b].size());
+      trace_closest(*compiled, bundles[b], hits);
+      trace_any(*compiled, bundles[b], is_blocked);
+      for (size_t i = 0; i < hits.size(); ++i) {
+        const Hit &x = hits[i], &y = expected[b][i];
+        differing += x.t != y.t || x.body != y.body || x.prim != y.prim || x.b0 != y.b0 || x.b1 != y.b1;
+        blocked_otherwise += static_cast<bool>(is_blocked[i]) != y.is_hit();
+      }
+    }
+    EXPECT_EQ(differing, 0) << isa;
+    EXPECT_EQ(blocked_otherwise, 0) << isa;
+  }
+}
+
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
   Scene scene = scene_of_shapes(
       {MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
