@@ -104,21 +104,35 @@ class SurfaceMaker {
   HWY_INLINE LaneSurfaces on_mesh(const CompiledBody& body, const size_t (&source)[kLanes]) const {
     const CompiledMesh& mesh = *body.mesh;
     const bool has_normals = is_smooth(mesh);
-    Gathered3 corners[3], normals[3];
-    Gathered b0, b1;
+    Gathered b0, b1, prim;
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const Hit& hit = hits_[source[lane]];
-      b0.at[lane] = hit.b0, b1.at[lane] = hit.b1;
-      const auto& at = mesh.triangles[hit.prim];
-      for (int v = 0; v < 3; ++v) corners[v].set(lane, mesh.positions[at[v]]);
-      if (!has_normals) continue;
-      const auto& of_corner = mesh.corner_normals[hit.prim];
-      for (int v = 0; v < 3; ++v) normals[v].set(lane, mesh.normals[of_corner[v]]);
+      b0.at[lane] = hit.b0, b1.at[lane] = hit.b1, prim.at[lane] = hit.prim;
     }
+    // Triangle by triangle: neighbours mostly share theirs.
     TriangleOf<Lanes> triangle;
-    for (int v = 0; v < 3; ++v) {
-      triangle.corner[v] = corners[v].lanes();
-      if (has_normals) triangle.normal[v] = normals[v].lanes();
+    const Lanes prims = prim.lanes();
+    constexpr uint32_t kAll = (1u << kLanes) - 1;
+    for (uint32_t todo = kAll; todo != 0;) {
+      const uint32_t index = hits_[source[hwy::Num0BitsBelowLS1Bit_Nonzero32(todo)]].prim;
+      const LaneMask here = prims == Lanes(index);
+      const auto& at = mesh.triangles[index];
+      if (todo == kAll) {
+        for (int v = 0; v < 3; ++v) triangle.corner[v] = of<Lanes>(mesh.positions[at[v]]);
+      } else {
+        for (int v = 0; v < 3; ++v)
+          triangle.corner[v] = select(here, of<Lanes>(mesh.positions[at[v]]), triangle.corner[v]);
+      }
+      if (has_normals) {
+        const auto& of_corner = mesh.corner_normals[index];
+        if (todo == kAll) {
+          for (int v = 0; v < 3; ++v) triangle.normal[v] = of<Lanes>(mesh.normals[of_corner[v]]);
+        } else {
+          for (int v = 0; v < 3; ++v)
+            triangle.normal[v] = select(here, of<Lanes>(mesh.normals[of_corner[v]]), triangle.normal[v]);
+        }
+      }
+      todo &= ~bits_of(here);
     }
     const Lanes u = b0.lanes(), v = b1.lanes();
     LaneSurfaces out;
