@@ -169,11 +169,10 @@ HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float
     }
     const V u = hn::MulSub(x[2], y[1], hn::Mul(y[2], x[1])), v = hn::MulSub(x[0], y[2], hn::Mul(y[0], x[2])),
             w = hn::MulSub(x[1], y[0], hn::Mul(y[1], x[0]));
-    // As of BlockEdges, but that each vertex has roundings of its own: a weight is off by 2 most times 6 for those of
-    // vertex and origin, 5 |z| for slope, difference and product, 4 most for differences, and 2 most for those of the
-    // cross.
-    const V units =
-        hn::MulAdd(hn::Set(tag, 5.0f), along, hn::MulAdd(hn::Set(tag, 6.0f), most, hn::Set(tag, 2.0f * ray.misplaced)));
+    // As of BlockEdges, but that each vertex is rounded by itself: a weight is off by 2 most times the roundings of
+    // vertex and origin, of slope, differences and product by distance, and 6 most for those of results and crosses.
+    const V units = hn::MulAdd(hn::Set(tag, kOffByDistance), along,
+                               hn::MulAdd(hn::Set(tag, 6.0f), most, hn::Set(tag, 2.0f * ray.misplaced)));
     const V bound = hn::MulAdd(hn::Mul(units, hn::Set(tag, 2.0f * BlockEdges::kUnit)), most, hn::Set(tag, 0x1p-37f));
     const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));

@@ -251,6 +251,10 @@ HWY_INLINE LaneBits lanes_equal(const uint32_t* row, uint32_t what) {
   return lanes;
 }
 
+// By how many 2^-25 a sheared vertex is off for each unit of its distance along kz, slopes up to 1: by the rounding of
+// the slope, of the two differences and, where it is rounded by itself, of the product.
+inline constexpr bool kIsFused = HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3;  // MulAdd and the like
+inline constexpr float kOffByDistance = kIsFused ? 5.0f : 7.0f;
 // The roundings of a vertex and of an origin with components up to this, in 2^-25.
 HWY_INLINE float misplacement(float component, float strayed) { return 1.0f + 2.0f * component + strayed; }
 

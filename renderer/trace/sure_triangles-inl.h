@@ -28,11 +28,11 @@ struct LaneHits {
 // that the ray meets the vertices weigh e x f - f x p - p x e, f x p and p x e; together e x f.
 //
 // How far these may be off, in units of 2^-25, S being the steepest slope (or 1) and Z the greatest distance of a
-// vertex from an origin along kz: p + e and p + f, which decide the first weight, by (1 + S) 3 for the roundings of a
-// vertex and an origin, by S Z for that of a slope, by 4 S Z + 4 |p| + 8 L + 2 l for those of differences and products,
-// where L is the longest component of e and f, and l the longer |x| + |y|. Let m be |p.x| + |p.y| + l. The weight is
-// off by that times 2 m, and by 22 l m for the roundings of crosses and their differences; the others and the sum are
-// off by less.
+// vertex from an origin along kz. p + e and p + f decide the first weight, and are off by 1 + S times the roundings of
+// a vertex and an origin (misplacement), by S Z times those of a slope, the differences and the product
+// (kOffByDistance), and by 4 |p| + 12 L + 2 l for those that grow with p, e and f, where L is the longest component of
+// e and f, and l the longer |x| + |y|. Let m be |p.x| + |p.y| + l. The weight is off by that times 2 m, and by 22 l m
+// for the roundings of crosses and their differences; the others and the sum are off by less.
 struct BlockEdges {
   static constexpr float kUnit = 1.1f * 0x1p-25f;
   alignas(32) float e[3][8], f[3][8];  // along kx, ky and kz
@@ -64,8 +64,8 @@ struct BlockEdges {
       const auto along = hn::Max(hn::Sub(highest, number(rays.origin_low[rays.kz])),
                                  hn::Sub(number(rays.origin_high[rays.kz]), lowest));
       const float steepest = rays.steepest;
-      auto units = hn::MulAdd(number(5.0f * steepest), along, number((1.0f + steepest) * rays.misplaced));
-      units = hn::MulAdd(number(8.0f), component, hn::MulAdd(number(13.0f), longer, units));
+      auto units = hn::MulAdd(number(kOffByDistance * steepest), along, number((1.0f + steepest) * rays.misplaced));
+      units = hn::MulAdd(number(12.0f), component, hn::MulAdd(number(13.0f), longer, units));
       hn::Store(longer, tag, length + i);
       hn::Store(hn::Mul(units, number(2.0f * kUnit)), tag, off + i);
     }
