@@ -28,6 +28,7 @@ class PacketWalk {
  public:
   explicit PacketWalk(const CompiledScene& scene)
       : scene_(scene),
+        few_lanes_(few_lanes(scene.tree)),
         stack_size_(kRoots + (WideBvh::kWidth - 1) * (static_cast<size_t>(scene.tree.depth) + 2)),
         stacks_(new LoneEntry[stack_size_ * kPacketRays]) {}
 
@@ -97,6 +98,14 @@ class PacketWalk {
   }
 
  private:
+  // So many walk apart. Where most of the tree lies beyond the caches, what a packet visits for a few of its lanes
+  // costs them all the wait, and lanes apart wait together.
+  static size_t few_lanes(const TriangleTree& tree) {
+    constexpr int64_t kCached = int64_t{64} << 20;
+    const bool is_cached = tree.memory_bytes() < kCached;
+    return kAnyHit ? (is_cached ? 6 : 10) : (is_cached ? 3 : 4);
+  }
+
   // As many together as go nearly the same way; returned are the others.
   template <size_t kCount>
   LaneBits walk_range(size_t first) {
@@ -133,7 +142,6 @@ class PacketWalk {
 
   template <size_t kCount>
   void walk() {
-    constexpr size_t kFewLanes = kAnyHit ? 6 : 3;  // walked apart
     const TriangleTree& tree = scene_.tree;
     const TreePlaces places(tree);
     // Apart, for what is stored as two numbers and read as one waits for its stores.
@@ -150,7 +158,7 @@ class PacketWalk {
       if (t > t_most) continue;
       const uint32_t next = stack.node[top];
       const LaneBits lanes = stack.lanes[top];
-      const bool is_few = hwy::PopCount(lanes) <= kFewLanes;
+      const bool is_few = hwy::PopCount(lanes) <= few_lanes_;
       if (next & WideBvh::kLeafBit) {
         const uint32_t leaf = next & ~WideBvh::kLeafBit;
         if (!is_built_in(Feature::triangles) || leaf & TriangleTree::kBodyBit) {
@@ -516,6 +524,7 @@ class PacketWalk {
   }
 
   const CompiledScene& scene_;
+  const size_t few_lanes_;  // walk apart
   std::span<const BoundedRay> input_;
   PacketRays rays_;
   LaneHits lane_;
