@@ -149,9 +149,13 @@ std::vector<bool> find_merged(const CompiledScene& scene) {
     if (is_merged) {
       // Triangles too small beside the scene would all have to be decided in double.
       constexpr double kLeastSize = 0x1p-13;
-      const Vec3 size = body_bounds(body).hi - body_bounds(body).lo;
+      const Box bounds = body_bounds(body);
+      const Vec3 size = bounds.hi - bounds.lo;
       const double triangle = std::max({size.x, size.y, size.z}) / std::sqrt(1.0 + body.mesh->triangles.size());
-      is_merged = triangle >= kLeastSize;
+      // Outside [-1, 1] (as a scene may be that lies too far from its origin to be centred) floats are coarser.
+      const bool is_centred =
+          std::max({bounds.hi.x, bounds.hi.y, bounds.hi.z, -bounds.lo.x, -bounds.lo.y, -bounds.lo.z}) <= 1.0;
+      is_merged = triangle >= kLeastSize && is_centred;
     }
     merged.push_back(is_merged);
   }

@@ -173,7 +173,7 @@ HWY_INLINE void sift_block(const TriangleBlock& block, const LoneRay& ray, float
     // vertex and origin, of slope, differences and product by distance, and 6 most for those of results and crosses.
     const V units = hn::MulAdd(hn::Set(tag, kOffByDistance), along,
                                hn::MulAdd(hn::Set(tag, 6.0f), most, hn::Set(tag, 2.0f * ray.misplaced)));
-    const V bound = hn::MulAdd(hn::Mul(units, hn::Set(tag, 2.0f * BlockEdges::kUnit)), most, hn::Set(tag, 0x1p-37f));
+    const V bound = hn::MulAdd(hn::Mul(units, hn::Set(tag, 2.0f * BlockEdges::kUnit)), most, hn::Set(tag, 0x1p-36f));
     const V least = hn::Min(u, hn::Min(v, w)), greatest = hn::Max(u, hn::Max(v, w));
     const V nearest = hn::Min(t[0], hn::Min(t[1], t[2])), farthest = hn::Max(t[0], hn::Max(t[1], t[2]));
     const V size = hn::Max(hn::Abs(nearest), hn::Abs(farthest));

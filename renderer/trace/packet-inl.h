@@ -292,26 +292,25 @@ class PacketWalk {
   }
   bool is_met(size_t lane) const { return (sifts_[lane].surely | sifts_[lane].unsure) != 0; }
   HWY_INLINE void take_hits(const TriangleBlock& block, const LoneSift& sifted, size_t lane) {
-    for (uint32_t met = sifted.surely; met != 0; met &= met - 1) {
-      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
-        continue;
-      if (kAnyHit) return block_lane(lane, block.body[k]);
+    const auto each = [&](uint32_t triangles, const auto& visit) HWY_ATTR {
+      for (; triangles != 0; triangles &= triangles - 1) {
+        const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(triangles);
+        const bool has_left = block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane];
+        if (!has_left && lane_.high[lane] != -INFINITY) visit(k, block.body[k], block.prim[k]);
+      }
+    };
+    each(sifted.surely, [&](int k, uint32_t body, uint32_t prim) HWY_ATTR {
+      if (kAnyHit) return block_lane(lane, body);
       if (sifted.high[k] < lane_.high[lane]) {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], lane_.low[lane]);
         lane_.low[lane] = sifted.low[k], lane_.high[lane] = sifted.high[k];
-        lane_.body[lane] = block.body[k], lane_.prim[lane] = block.prim[k];
-        hwy::Prefetch(&scene_.bodies[block.body[k]].mesh->triangles[block.prim[k]]);  // for finish
+        lane_.body[lane] = body, lane_.prim[lane] = prim;
+        hwy::Prefetch(&scene_.bodies[body].mesh->triangles[prim]);  // for finish
       } else {
         lane_.doubt[lane] = std::min(lane_.doubt[lane], sifted.low[k]);
       }
-    }
-    for (uint32_t met = sifted.unsure; met != 0; met &= met - 1) {
-      const int k = hwy::Num0BitsBelowLS1Bit_Nonzero32(met);
-      if (given_.has_left && block.prim[k] == given_.left_prim[lane] && block.body[k] == given_.left_body[lane])
-        continue;
-      decide(block.body[k], block.prim[k], bit_of(lane));
-    }
+    });
+    each(sifted.unsure, [&](int, uint32_t body, uint32_t prim) HWY_ATTR { decide(body, prim, bit_of(lane)); });
   }
 
   // The rays in the space of a mesh. The last two are kept: a packet seldom sees more.
@@ -355,8 +354,8 @@ class PacketWalk {
       for (auto& v : vertex)
         for (auto& k : v) k[h] = hn::Zero(tag);
     }
-    for (LaneBits rest = lanes & lone_set_; rest != 0;
-         rest &= rest - 1) {  // who walked apart has a triangle of its own
+    // Who walked apart has a triangle of its own.
+    for (LaneBits rest = lanes & lone_set_; rest != 0; rest &= rest - 1) {
       const auto& triangle = mesh.triangles[lane_.prim[lowest_of(rest)]];
       for (int v = 0; v < 3; ++v) hwy::Prefetch(&mesh.positions[triangle[v]]);
     }

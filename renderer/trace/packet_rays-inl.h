@@ -251,11 +251,13 @@ HWY_INLINE LaneBits lanes_equal(const uint32_t* row, uint32_t what) {
   return lanes;
 }
 
-// By how many 2^-25 a sheared vertex is off for each unit of its distance along kz, slopes up to 1: by the rounding of
-// the slope, of the two differences and, where it is rounded by itself, of the product.
+// By how many 2^-25 a sheared vertex is off for each unit of its distance along kz and of the steepest slope (at least
+// 1): by 2 for the rounding of the slope, which may be a little above 1, by 4 for those of the two differences and,
+// where it is rounded by itself, by 2 for that of the product.
 inline constexpr bool kIsFused = HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3;  // MulAdd and the like
-inline constexpr float kOffByDistance = kIsFused ? 5.0f : 7.0f;
-// The roundings of a vertex and of an origin with components up to this, in 2^-25.
+inline constexpr float kOffByDistance = kIsFused ? 6.0f : 8.0f;
+// The roundings of a vertex (find_merged sees to it that none is outside [-1, 1]) and of an origin with components up
+// to this, in 2^-25.
 HWY_INLINE float misplacement(float component, float strayed) { return 1.0f + 2.0f * component + strayed; }
 
 using FourTag = hn::CappedTag<float, 4>;

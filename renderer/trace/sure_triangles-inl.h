@@ -28,11 +28,11 @@ struct LaneHits {
 // that the ray meets the vertices weigh e x f - f x p - p x e, f x p and p x e; together e x f.
 //
 // How far these may be off, in units of 2^-25, S being the steepest slope (or 1) and Z the greatest distance of a
-// vertex from an origin along kz. p + e and p + f decide the first weight, and are off by 1 + S times the roundings of
-// a vertex and an origin (misplacement), by S Z times those of a slope, the differences and the product
-// (kOffByDistance), and by 4 |p| + 12 L + 2 l for those that grow with p, e and f, where L is the longest component of
-// e and f, and l the longer |x| + |y|. Let m be |p.x| + |p.y| + l. The weight is off by that times 2 m, and by 22 l m
-// for the roundings of crosses and their differences; the others and the sum are off by less.
+// vertex from an origin along kz. p + e and p + f decide the first weight, and are off by (1 + S) misplacement, by S Z
+// kOffByDistance, and by 4 |p| + 12 L + 2 l for the roundings that grow with p, e and f, where L is the longest
+// component of e and f, and l the longer |x| + |y|. Let m be |p.x| + |p.y| + l. The weight is off by all that times 2
+// m, and by 22 l m for the roundings of crosses and their differences, so 13 l in all; the other weights are off by
+// less, and the sum by no more than twice that.
 struct BlockEdges {
   static constexpr float kUnit = 1.1f * 0x1p-25f;
   alignas(32) float e[3][8], f[3][8];  // along kx, ky and kz
@@ -97,7 +97,7 @@ struct LaneWeights {
     u = hn::Sub(hn::Sub(sum, v), w);
     const V m = hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), hn::Set(tag, edges.length[k]));
     const V off = hn::MulAdd(hn::Set(tag, 8.0f * BlockEdges::kUnit), m, hn::Set(tag, edges.off[k]));
-    bound = hn::MulAdd(off, m, hn::Set(tag, 0x1p-37f));  // and what is off in both factors
+    bound = hn::MulAdd(off, m, hn::Set(tag, 0x1p-36f));  // and what is off in both factors
   }
   // Whether all weights are above `least`, or all below its opposite.
   HWY_INLINE auto agree_beyond(V least) const {
@@ -153,8 +153,8 @@ struct SureTriangles {
       const LaneWeights weights(block, edges, k, rays, i);
       const V high = hn::Load(tag, lane.high + i);
       auto surely = hn::And(maybe, weights.agree_beyond(hn::Mul(hn::Set(tag, 1.125f), weights.bound)));
-      // Each weight is off by less than its bound, and their sum, which is more than three, by no more: so a share of
-      // the sum is off by less than (1 + share) bound / sum.
+      // A weight is off by less than its bound, and the sum, more than three bounds, by less than two: so a share of
+      // the sum by less than (1 + 2 share) bound / sum, and t by no more than four times that of the edges' range.
       const V ez = hn::Set(tag, edges.e[2][k]), fz = hn::Set(tag, edges.f[2][k]);
       const V sz = hn::Load(tag, rays.inverse[rays.kz] + i);
       const V inverse = hn::Div(hn::Set(tag, 1.0f), weights.sum);

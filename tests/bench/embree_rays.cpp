@@ -61,13 +61,14 @@ struct EmbreeTracer::Layout {
 };
 struct EmbreeTracer::Part {
   bool any_hit = false, coherent = false;
-  size_t count = 0;
+  size_t kind = 0, count = 0;
   Layout layout;  // before they are traced
 };
 
 class EmbreeTracer::Job {
  public:
   EmbreeMode mode = EmbreeMode::single;
+  size_t kinds = 0;
   std::vector<std::vector<Part>> pixels;
 };
 
@@ -120,10 +121,15 @@ int64_t EmbreeTracer::memory_bytes() const { return state_->bytes; }
 EmbreeTracer::JobPtr EmbreeTracer::prepare(const FrameWaves& frame, EmbreeMode mode) const {
   auto job = std::make_shared<Job>();
   job->mode = mode;
+  const std::vector<WaveKind> kinds = kinds_of(frame);
+  job->kinds = kinds.size();
   for (const PixelWaves& waves : frame) {
     auto& parts = job->pixels.emplace_back();
     for (const Wave& wave : waves) {
-      Part part{wave.any_hit, wave.depth == 0, wave.rays.size(), {}};
+      const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const WaveKind& k) {
+        return k.depth == wave.depth && k.any_hit == wave.any_hit;
+      });
+      Part part{wave.any_hit, wave.depth == 0, static_cast<size_t>(kind - kinds.begin()), wave.rays.size(), {}};
       if (mode == EmbreeMode::packets) {
         part.layout.packets.resize((wave.rays.size() + kPacket - 1) / kPacket);
         for (size_t i = 0; i < part.layout.packets.size() * kPacket; ++i)
@@ -180,16 +186,18 @@ void EmbreeTracer::trace(const Job& job, const Part& part, Layout& now) const {
   }
 }
 
-double EmbreeTracer::run(const Job& job, TilePool& pool) const {
-  SpentTime spent;
+std::vector<double> EmbreeTracer::run(const Job& job, TilePool& pool) const {
+  std::vector<SpentTime> spent(job.kinds);
   pool.parallel_for(static_cast<int64_t>(job.pixels.size()), Priority::normal, [&](int64_t i) {
     thread_local Layout now;
     for (const Part& part : job.pixels[static_cast<size_t>(i)]) {
       now = part.layout;
-      spent.spend([&] { trace(job, part, now); });
+      spent[part.kind].spend([&] { trace(job, part, now); });
     }
   });
-  return spent.seconds() / pool.thread_count();
+  std::vector<double> seconds;
+  for (const SpentTime& of_kind : spent) seconds.push_back(of_kind.seconds() / pool.thread_count());
+  return seconds;
 }
 
 double EmbreeTracer::differing(const Job& job, const CompiledScene& scene, const FrameWaves& frame) const {

@@ -23,8 +23,8 @@ class EmbreeTracer {
   class Job;
   using JobPtr = std::shared_ptr<Job>;
   JobPtr prepare(const FrameWaves& frame, EmbreeMode mode) const;
-  // Seconds that a thread of the pool took on average.
-  double run(const Job& job, TilePool& pool) const;
+  // Seconds that a thread of the pool took on average, by kind of rays as kinds_of has them.
+  std::vector<double> run(const Job& job, TilePool& pool) const;
   // In percent: primary rays that do not hit the (body, primitive) that ours do.
   double differing(const Job& job, const CompiledScene& scene, const FrameWaves& frame) const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernels of trace_rays.h as they would be without the care for numbers: the same trees, packets and walk,
 // triangles by Moeller and Trumbore in float, a fixed epsilon, nothing in double for meshes. Faster, and wrong in
-// places.
+// places. What walks apart keeps its care: it is a twentieth of primary rays' time and a sixth of their shadow rays'.
 #pragma once
 
 #include <cstdint>

@@ -397,6 +397,48 @@ TEST_F(TraceRays, AimedBesideEdgesMeetInBundlesWhatTheyMeetOneByOne) {
   }
 }
 
+// Where slopes are a little above 1 and every rounding falls the worst way, the filter's bounds are nearly used up.
+TEST_F(TraceRays, FallTheWorstWayAndStillMeetWhatTheyMeetOneByOne) {
+  constexpr double kUlp = 0x1p-24;
+  struct Case {
+    Vec3 origin, direction, vertex;
+  };
+  const Case cases[] = {{{0.0, -0.00072032211799232752, -0.00098729136429610669},
+                         {0.0, 0.70700951770244436, 0.7072040312937683},
+                         {0.0, 0.99998077750355008, 0.99998673796504733}},
+                        {{0.0, -7.1585176610460617e-05, -6.4134599543103836e-05},
+                         {0.0, 0.70711371396555289, 0.7070998483395694},
+                         {0.0, 0.99999317526966336, 0.99997863173335788}}};
+  for (const Case& c : cases) {
+    for (int height = -64; height <= 64; ++height) {
+      // A sliver across the ray's plane, its base a few roundings above or below its tip; the frame keeps the scene in
+      // place.
+      MeshData sliver, frame;
+      const double base = c.vertex.y + height * kUlp;
+      sliver.positions = {c.vertex, {0.0023, base, c.vertex.z}, {-0.0023, base, c.vertex.z}};
+      sliver.indices = {0, 1, 2};
+      frame.positions = {{-1, -1, -1}, {-1, -1, -0.9}, {-1, -0.9, -1}, {1, 1, 1}, {1, 1, 0.9}, {1, 0.9, 1}};
+      frame.indices = {0, 1, 2, 3, 4, 5};
+      Scene scene = scene_of_shapes({MeshShape{0}, MeshShape{1}});
+      scene.meshes = {sliver, frame};
+      const auto compiled = compile_scene(scene, pool_);
+      ASSERT_EQ(compiled->center, Vec3(0.0));
+      ASSERT_EQ(compiled->units, 1.0);
+      std::vector<BoundedRay> rays(32, {{c.origin, glm::normalize(c.direction), {}}});
+      for (size_t i = 16; i < 32; ++i) rays[i].ray.direction = glm::normalize(Vec3(0.0, 1.0 - 3e-4, 1.0));
+      Hit alone;
+      trace_closest(*compiled, {&rays[0], 1}, {&alone, 1});
+      for (const std::string& isa : available_isas()) {
+        ASSERT_TRUE(select_isa(isa).has_value());
+        std::vector<Hit> hits(rays.size());
+        trace_closest(*compiled, rays, hits);
+        EXPECT_EQ(hits[0].body, alone.body) << isa << ", base at " << height;
+        EXPECT_EQ(hits[0].t, alone.t) << isa << ", base at " << height;
+      }
+    }
+  }
+}
+
 TEST_F(TraceRays, GiveTheSameBitsOnEveryInstructionSet) {
   Scene scene = scene_of_shapes(
       {MeshShape{0}, SphereShape{{1.5, 0, 0}, 0.7}, BoxShape{{-3, -1, -1}, {-1.2, 1, 1}}, PlaneShape{}});
