@@ -539,12 +539,6 @@ class PacketWalk {
   int latest_ = 0;                       // which of inside_ was asked for last
 };
 
-// What lies ahead in a list of rays, which the processor does not foresee in time.
-HWY_INLINE void prefetch_rays(std::span<const BoundedRay> rays) {
-  const auto* bytes = reinterpret_cast<const char*>(rays.data());
-  for (size_t at = 0; at < rays.size_bytes(); at += 64) hwy::Prefetch(bytes + at);
-}
-
 // All rays, a packet of neighbours at a time. Answer: Hit, or uint8_t for whether a ray is blocked. ask(ray): for what
 // packets do not decide. Packet: a PacketWalk.
 template <class Packet, class Answer, class Ask>
@@ -555,8 +549,6 @@ HWY_INLINE void trace_packets(const CompiledScene& scene, std::span<const Bounde
   for (size_t first = 0; first < rays.size(); first += kPacketRays) {
     const auto rest = rays.subspan(first);
     const auto some = rest.first(std::min<size_t>(kPacketRays, rest.size()));
-    const auto after = rest.subspan(some.size());
-    prefetch_rays(after.first(std::min<size_t>(kPacketRays, after.size())));
     LaneBits undecided = ~LaneBits{0};
     if (some.size() >= kFewRays) {
       packet.take(some);

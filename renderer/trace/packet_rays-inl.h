@@ -9,6 +9,7 @@
 #define TILELIGHT_PACKET_RAYS_INL_H
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -103,6 +104,8 @@ HWY_INLINE void read_rays(std::span<const BoundedRay> rays, GivenRays& out) {
     out.t_max[i] = i < rays.size() ? ray.t_max : kMissed;
     out.has_left |= ray.ray.left.body != kNone;
   }
+  std::fill_n(out.reach, kPacketRays, 0.0);
+  if (!out.has_left) return;
   for (size_t i = 0; i < kPacketRays; ++i) {
     const double size = std::abs(out.origin[0][i]) + std::abs(out.origin[1][i]) + std::abs(out.origin[2][i]);
     const double reach = reach_at(size);
