@@ -116,21 +116,12 @@ class SurfaceMaker {
     for (uint32_t todo = kAll; todo != 0;) {
       const uint32_t index = hits_[source[hwy::Num0BitsBelowLS1Bit_Nonzero32(todo)]].prim;
       const LaneMask here = prims == Lanes(index);
-      const auto& at = mesh.triangles[index];
-      if (todo == kAll) {
-        for (int v = 0; v < 3; ++v) triangle.corner[v] = of<Lanes>(mesh.positions[at[v]]);
-      } else {
-        for (int v = 0; v < 3; ++v)
-          triangle.corner[v] = select(here, of<Lanes>(mesh.positions[at[v]]), triangle.corner[v]);
-      }
-      if (has_normals) {
-        const auto& of_corner = mesh.corner_normals[index];
-        if (todo == kAll) {
-          for (int v = 0; v < 3; ++v) triangle.normal[v] = of<Lanes>(mesh.normals[of_corner[v]]);
-        } else {
-          for (int v = 0; v < 3; ++v)
-            triangle.normal[v] = select(here, of<Lanes>(mesh.normals[of_corner[v]]), triangle.normal[v]);
-        }
+      const bool is_first = todo == kAll;
+      const auto put = [&](const Vec3& vertex, Of3<Lanes>& to)
+                           HWY_ATTR { to = is_first ? of<Lanes>(vertex) : select(here, of<Lanes>(vertex), to); };
+      for (size_t v = 0; v < 3; ++v) {
+        put(mesh.positions[mesh.triangles[index][v]], triangle.corner[v]);
+        if (has_normals) put(mesh.normals[mesh.corner_normals[index][v]], triangle.normal[v]);
       }
       todo &= ~bits_of(here);
     }

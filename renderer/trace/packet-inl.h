@@ -481,7 +481,7 @@ class PacketWalk {
     const float t_most = greatest_of<kCount>(lane_.high + rays_.first);
     uint32_t boxes = boxes_met(rays_, plane, t_most, entry);
     if (boxes == 0) return;
-    const BlockEdges edges(block, rays_);
+    const typename Triangles::Edges edges(block, rays_);
     struct {
       int triangle[8];
       LaneBits lanes[8];

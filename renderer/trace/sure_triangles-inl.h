@@ -109,6 +109,7 @@ struct LaneWeights {
 // it.
 template <bool kAnyHit>
 struct SureTriangles {
+  using Edges = BlockEdges;
   static constexpr bool kInDouble = true;  // what is found is computed in double at the end
 
   // Which lanes may meet the k-th triangle. entry: no lane does before this t.

@@ -41,9 +41,11 @@ struct FilterRay {
 
 // Distances in the filter are widened by this before they discard anything: more than their rounding.
 inline constexpr float kFilterSlack = 0x1p-18f;
-// Points in a plane sheared by slopes up to 1 are off by less than this: 29 roundings of 2^-25 (of origin, direction,
-// vertex, shear and their products) come to 2^-20.1. What is discarded and what is accepted both rest on it.
-inline constexpr float kSheared = 0x1p-19f;
+// Points in a plane sheared by slopes up to 1 are off by less than this. In units of 2^-25: 6 for vertex and
+// origin, 13.5 for each unit of the distance along the ray (8 of the slope, which is rounded four times, 4 of
+// differences, 2 of the product), of which there are no more than 3, and 6 for each unit of |x| + |y|, no more than 8,
+// with the rounding of the edge functions: 94.5. What is discarded and what is accepted both rest on it.
+inline constexpr float kSheared = 96.0f * 0x1p-25f;
 // A slope of 0 would make 0 * inf; the widened boxes allow for one this small.
 inline constexpr float kTinySlope = 0x1p-60f;
 

@@ -13,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "renderer/film/sampling.h"
 #include "renderer/renderer.h"
 #include "renderer/shade/light_equation.h"
 #include "renderer/shade/surface.h"
@@ -23,6 +22,7 @@
 #include "tests/bench/naive_rays.h"
 #include "tests/bench/textbook.h"
 #include "tests/bench/timing.h"
+#include "tests/bench/waves.h"
 #if TILELIGHT_WITH_EMBREE
 #include "tests/bench/peers.h"
 #endif
@@ -32,26 +32,8 @@ namespace {
 
 using bench::median, bench::seconds_of;
 
-constexpr int kTilePx = 32;
-
-// Rays of one tile, as a kernel would batch them.
+// Rays that are asked for together.
 using Batches = std::vector<std::vector<BoundedRay>>;
-
-Batches primary_rays(const ViewPlan& plan) {
-  const ImageSpec& image = plan.view.image;
-  Batches batches(static_cast<size_t>(tile_count(image.width, image.height, kTilePx)));
-  for (size_t i = 0; i < batches.size(); ++i) {
-    const TileRect rect = tile_rect(static_cast<int>(i), image.width, image.height, kTilePx);
-    for_each_cell(rect, [&](const TileRect& cell) {
-      for_each_pixel(cell, [&](int x, int y) {
-        const SamplePoint p = sample_point(x, y, 0, 0);
-        const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
-        batches[i].push_back({{ray.origin, ray.direction, {}}});
-      });
-    });
-  }
-  return batches;
-}
 
 Batches shadow_rays(const CompiledScene& scene, const Batches& primary) {
   Batches batches;
@@ -217,7 +199,7 @@ int run(const std::string& path, int rounds, int threads, bool robustness) {
               path.c_str(), view.image.width, view.image.height, static_cast<long long>(plan.plan.triangles_instanced),
               plan.plan.kernel.c_str(), plan.plan.isa.c_str(), pool.thread_count(), rounds);
   std::printf("%-14s %9s %10s %12s %16s %10s\n", "rays", "Mrays", "ms", "Mrays/s", ("on " + plain).c_str(), "ratio");
-  const Batches primary = primary_rays(plan);
+  const Batches primary = bench::primary_rays(plan);
   const Batches shadow = shadow_rays(*scene, primary);
   if (robustness) {
     print_robustness(*scene, primary, shadow, pool, rounds);

@@ -18,16 +18,19 @@ namespace HWY_NAMESPACE {
 // Moeller and Trumbore 1997 with a fixed epsilon, the nearest t wins, and no doubt.
 template <bool kAnyHit>
 struct NaiveTriangles {
+  struct Edges {
+    Edges(const TriangleBlock&, const PacketRays&) {}
+  };
   static constexpr bool kInDouble = false;
 
   template <size_t kCount>
-  static HWY_INLINE LaneBits may_meet(const TriangleBlock&, const BlockEdges&, int, float, const PacketRays& rays,
+  static HWY_INLINE LaneBits may_meet(const TriangleBlock&, const Edges&, int, float, const PacketRays& rays,
                                       const LaneHits&) {
     return first_lanes(kCount) << rays.first;
   }
 
   template <size_t kCount>
-  static HWY_INLINE LaneBits meet(const TriangleBlock& block, const BlockEdges&, int k, LaneBits lanes,
+  static HWY_INLINE LaneBits meet(const TriangleBlock& block, const Edges&, int k, LaneBits lanes,
                                   const PacketRays& rays, const GivenRays&, LaneHits& lane) {
     constexpr float kEpsilon = 1e-4f;
     const LaneTag tag;

@@ -48,22 +48,27 @@ PixelWaves follow(const CompiledScene& scene, const ViewPlan& plan, std::vector<
 
 }  // namespace
 
-FrameWaves waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) {
+std::vector<std::vector<BoundedRay>> primary_rays(const ViewPlan& plan) {
   constexpr int64_t kBatchPixels = 256;  // as a kernel's
   const ImageSpec& image = plan.view.image;
-  std::vector<std::vector<BoundedRay>> primary;
+  std::vector<std::vector<BoundedRay>> batches;
   for (int tile = 0; tile < tile_count(image.width, image.height, kTilePx); ++tile) {
     int64_t pixels = kBatchPixels;
     for_each_cell(tile_rect(tile, image.width, image.height, kTilePx), [&](const TileRect& cell) {
-      if (pixels + cell.pixel_count() > kBatchPixels) primary.emplace_back(), pixels = 0;
+      if (pixels + cell.pixel_count() > kBatchPixels) batches.emplace_back(), pixels = 0;
       pixels += cell.pixel_count();
       for_each_pixel(cell, [&](int x, int y) {
         const SamplePoint p = sample_point(x, y, 0, 0);
         const EyeRay ray = eye_ray(plan.eye, x + p.x, y + p.y);
-        primary.back().push_back({{ray.origin, ray.direction, {}}});
+        batches.back().push_back({{ray.origin, ray.direction, {}}});
       });
     });
   }
+  return batches;
+}
+
+FrameWaves waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool) {
+  std::vector<std::vector<BoundedRay>> primary = primary_rays(plan);
   FrameWaves frame(primary.size());
   pool.parallel_for(static_cast<int64_t>(frame.size()), Priority::normal, [&](int64_t i) {
     frame[static_cast<size_t>(i)] = follow(scene, plan, std::move(primary[static_cast<size_t>(i)]));

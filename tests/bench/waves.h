@@ -22,6 +22,9 @@ struct Wave {
 using PixelWaves = std::vector<Wave>;
 using FrameWaves = std::vector<PixelWaves>;
 
+// The primary rays of one sample a pixel, as many together as a kernel takes.
+std::vector<std::vector<BoundedRay>> primary_rays(const ViewPlan& plan);
+
 // Of one sample a pixel. REQUIRES: nothing in the scene lets light through.
 FrameWaves waves_of(const CompiledScene& scene, const ViewPlan& plan, TilePool& pool);
 

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "renderer/base/child_process.h"
+
 namespace tilelight {
 namespace {
 
@@ -39,14 +41,9 @@ std::string read_file(const fs::path& path) {
 
 class Command : public testing::Test {
  protected:
-  Command() {
-    char name[] = "/tmp/tilelight-cli-XXXXXX";
-    folder_ = ::mkdtemp(name);
-    write("scene.json", kScene);
-  }
-  ~Command() override { fs::remove_all(folder_); }
+  Command() { write("scene.json", kScene); }
 
-  fs::path path(const std::string& name) const { return folder_ / name; }
+  fs::path path(const std::string& name) const { return folder_.file(name.c_str()); }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
   std::string read(const std::string& name) const { return read_file(path(name)); }
 
@@ -58,7 +55,7 @@ class Command : public testing::Test {
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child != 0) return child;
-    if (::chdir(folder_.c_str()) != 0 || !std::freopen(input.c_str(), "r", stdin) ||
+    if (::chdir(path("").c_str()) != 0 || !std::freopen(input.c_str(), "r", stdin) ||
         !std::freopen("stdout.txt", "w", stdout) || !std::freopen("stderr.txt", "w", stderr))
       ::_exit(99);
     ::execv(argv[0], argv.data());
@@ -79,7 +76,7 @@ class Command : public testing::Test {
   // What lies in the folder beside the scene and the streams.
   std::vector<std::string> results() const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
+    for (const auto& entry : fs::directory_iterator(path(""))) {
       const std::string name = entry.path().filename();
       if (name != "scene.json" && name != "stdout.txt" && name != "stderr.txt") names.push_back(name);
     }
@@ -87,7 +84,7 @@ class Command : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Command, RendersEachFormatByItsEndingAndLeavesNothingElse) {
