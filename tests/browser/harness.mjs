@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A server on a free port, a browser with a fresh profile, and pages that keep account of what went wrong in them.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { mkdir, mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
+
+export { startServer } from '../support/server.mjs';
 
 const kBrowserFlags = [
   '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
@@ -18,31 +19,6 @@ export const kSmall = { viewport: { width: 768, height: 480 } };  // what most t
 export const kQuickScene = '/#scene=cubes';  // drawn in a fifth of the opening's time; for what does not depend on the scene
 export const kDesktop = { viewport: { width: 1440, height: 900 } };
 export const kPhone = { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
-
-// Starts the server; {url, stop()}.
-export async function startServer() {
-  const server = spawn(process.env.TILELIGHTD, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0',
-    '--data-dir', ':memory:'], { stdio: ['ignore', 'pipe', 'pipe'] });
-  const ended = new Promise((resolve) => server.once('exit', resolve));
-  let output = '';
-  const url = await new Promise((resolve, reject) => {
-    const read = (text) => {
-      output += text;
-      const announced = /^Tilelight is at (\S+)\/$/m.exec(output);
-      if (announced) resolve(announced[1]);
-    };
-    server.stdout.on('data', read);
-    server.stderr.on('data', read);
-    ended.then((code) => reject(new Error(`The server ended with ${code}:\n${output}`)));
-  });
-  return {
-    url,
-    stop: async () => {
-      server.kill('SIGTERM');
-      await ended;
-    },
-  };
-}
 
 // Runs `body({page, server, context})` on a loaded page with a finished first picture, and holds the page to a clean
 // console: no errors, no exceptions, no breach of the content security policy. `expected` = patterns of console lines

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the cases need: a server, raw bytes over a socket, and the command.
+import { execFile } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import net from 'node:net';
+
+export { startServer } from '../support/server.mjs';
+
+const kInputs = new URL('./inputs/', import.meta.url).pathname;
+
+export const inputPath = (name) => kInputs + name;
+export const readInput = (name) => readFile(inputPath(name));
+export const readJson = async (name) => JSON.parse(await readFile(inputPath(name), 'utf8'));
+
+// Sends `bytes` over a connection of its own and reads until the server closes or `quietMs` pass without a byte;
+// {text, isClosed}: all that came, as Latin-1, and whether the server closed. halfClose: ends the sending side first.
+export function sendBytes(port, bytes, { halfClose = false, quietMs = 1500 } = {}) {
+  return new Promise((resolve, reject) => {
+    const socket = net.connect({ port, host: '127.0.0.1', allowHalfOpen: true });
+    const chunks = [];
+    const finish = (isClosed) => {
+      socket.destroy();
+      resolve({ text: Buffer.concat(chunks).toString('latin1'), isClosed });
+    };
+    socket.setTimeout(quietMs, () => finish(false));
+    socket.on('data', (chunk) => chunks.push(chunk));
+    socket.on('end', () => finish(true));
+    socket.on('error', reject);
+    if (halfClose) socket.end(bytes);
+    else socket.write(bytes);
+  });
+}
+
+// The status codes of the responses in what sendBytes read. Bodies of this server never hold a line "HTTP/1.1 NNN".
+export const statusesOf = (text) => [...text.matchAll(/HTTP\/1\.1 (\d{3}) /g)].map((match) => Number(match[1]));
+
+// Runs the `tilelight` command; {code, stdout (Buffer), stderr}.
+export function tilelight(...args) {
+  return new Promise((resolve) => {
+    execFile(process.env.TILELIGHT, args, { encoding: 'buffer', maxBuffer: 1 << 30 }, (error, stdout, stderr) => {
+      resolve({ code: error ? error.code : 0, stdout, stderr: stderr.toString() });
+    });
+  });
+}
+
+// The light that `render FILE --pixel x,y` explains.
+export async function explainPixel(name, x = 0, y = 0) {
+  const { code, stdout, stderr } = await tilelight('render', inputPath(name), '--pixel', `${x},${y}`);
+  if (code !== 0) throw new Error(stderr);
+  return JSON.parse(stdout);
+}
+
+// POSTs a scene document to `path`; the fetch response.
+export const post = (server, path, body, headers = {}) => fetch(server.url + path, {
+  method: 'POST', headers: { 'Content-Type': 'application/json', ...headers },
+  body: typeof body === 'string' || body instanceof Uint8Array ? body : JSON.stringify(body),
+});
