@@ -20,4 +20,5 @@
 #include "renderer/render/predict.h"      // IWYU pragma: export
 #include "renderer/render/render.h"       // IWYU pragma: export
 #include "renderer/scene/parse.h"         // IWYU pragma: export
+#include "renderer/scene/spelling.h"      // IWYU pragma: export
 #include "renderer/schedule/tile_pool.h"  // IWYU pragma: export

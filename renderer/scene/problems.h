@@ -9,6 +9,7 @@
 
 #include "renderer/scene/document.h"
 #include "renderer/scene/parse.h"
+#include "renderer/scene/spelling.h"  // IWYU pragma: export
 
 namespace tilelight {
 
@@ -56,9 +57,6 @@ std::string number_text(double number);
 
 // What was found, for a message: "3", "\"red\" (a string)", "a list of 2 numbers", ...
 std::string describe_found(Value value);
-
-// "did you mean "radius"?", or nothing if no candidate is near (Damerau and Levenshtein's distance, restricted).
-std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 // "a", "a or b", "a, b or c".
 std::string join_words(std::span<const std::string> words);
