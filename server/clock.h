@@ -26,6 +26,8 @@ class SystemClock final : public Clock {
 
 // "2024-05-01T12:00:00.000Z" (RFC 3339).
 std::string rfc3339(int64_t wall_ms);
+// "Wed, 01 May 2024 12:00:00 GMT" (IMF-fixdate, RFC 9110, 5.6.7).
+std::string http_date(int64_t wall_ms);
 
 inline double ms_between(Steady::time_point from, Steady::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();

@@ -136,11 +136,11 @@ Response accepted_response(const JobRecord& record, const Request& request) {
       .with("Vary", "Accept, Prefer")
       .with("Cache-Control", "no-store");
   const Preferences preferences = read_preferences(request);
-  if (preferences.respond_async) {
-    response.with("Preference-Applied", "respond-async");
-  } else if (preferences.wait_s) {
-    response.with("Preference-Applied", "wait=" + std::to_string(static_cast<int>(wait_seconds(request, 0.0))));
+  std::string applied = preferences.respond_async ? "respond-async" : "";
+  if (preferences.wait_s) {
+    applied += (applied.empty() ? "wait=" : ", wait=") + std::to_string(static_cast<int>(wait_seconds(request, 0.0)));
   }
+  if (!applied.empty()) response.with("Preference-Applied", applied);
   return response;
 }
 

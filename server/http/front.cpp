@@ -108,6 +108,7 @@ void Front::run_loop() {
     if (now >= next_check_ms) {
       check_deadlines();
       pump_streams();
+      probe_half_closed();
       set_accepting(true);
       next_check_ms = now + kTickMs;
     }
@@ -176,18 +177,22 @@ void Front::handle_event(uint64_t id, uint32_t events) {
   const auto found = connections_.find(id);
   if (found == connections_.end()) return;  // closed by an event before this one
   Connection& c = *found->second;
-  if (events & (EPOLLHUP | EPOLLERR)) return close_connection(id);
+  // Where both sides have ended their sending, what the client sent before is still to be taken: a socket closed over
+  // it would reset the connection under the answer.
+  const bool has_left = (events & EPOLLERR) || ((events & EPOLLHUP) && c.phase != Phase::closing);
+  if (has_left) return close_connection(id);
   switch (c.phase) {
     case Phase::reading:
       return read_some(c);
     case Phase::serving:
-      // The client has closed its sending side: nothing it waited for is worth more work, but an answer still goes out.
-      if (events & EPOLLRDHUP) c.exchange->gone.request_stop(), c.close_after = true, watch(c, 0);
-      return;
+      if ((events & EPOLLRDHUP) == 0) return;
+      c.half_closed_ms = now_ms();
+      c.probe_at_ms = c.half_closed_ms + options_.probe_ms;
+      return watch(c, 0);
     case Phase::writing:
       return write_some(c);
     case Phase::streaming:
-      return close_connection(id);  // the client has closed its sending side: nobody listens
+      return watch(c, 0);  // the client has ended its sending; it may still listen, and the next piece tells
     case Phase::closing:
       return discard(c);
   }
@@ -196,11 +201,11 @@ void Front::handle_event(uint64_t id, uint32_t events) {
 void Front::read_some(Connection& c) {
   char bytes[kReadBytes];
   const ssize_t got = recv(c.fd, bytes, sizeof bytes, 0);
-  if (got == 0) return close_connection(c.id);
-  if (got < 0) {
-    if (errno != EAGAIN && errno != EINTR) close_connection(c.id);
-    return;
+  if (got == 0 && !c.in.empty()) {
+    return refuse(c, Problem{400, "bad_request", "the connection ended before the request was complete", {}, {}});
   }
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (got <= 0) return close_connection(c.id);
   if (c.in.empty()) c.since_ms = now_ms(), c.deadline_ms = c.since_ms + options_.head_timeout_ms;
   // A body's declared length is bounded, and its memory is taken as it arrives, not as it is declared.
   c.in.append(bytes, static_cast<size_t>(got));
@@ -209,6 +214,13 @@ void Front::read_some(Connection& c) {
 }
 
 void Front::advance(Connection& c) {
+  if (!c.head && !c.has_skipped_line) {
+    const size_t skipped = empty_line_bytes(c.in);
+    c.has_skipped_line = skipped > 0;
+    c.in.erase(0, skipped);
+    buffered_bytes_ -= static_cast<int64_t>(skipped);
+    if (c.in.empty()) c.deadline_ms = c.since_ms + options_.idle_timeout_ms;
+  }
   if (!c.head) {
     auto head = scan_head(c.in, options_.limits);
     if (!head) return refuse(c, head.error());
@@ -234,12 +246,15 @@ void Front::hand_over(Connection& c) {
   const size_t body_bytes = static_cast<size_t>(c.head->body_bytes), end = c.head->bytes + body_bytes;
   exchange->connection = c.id;
   exchange->client = c.client;
-  exchange->head = std::move(c.head->text);
   exchange->body = c.in.substr(c.head->bytes, body_bytes);
+  exchange->head = std::move(*c.head);
   c.in.erase(0, end);
   if (c.in.empty()) std::string().swap(c.in);                 // gives a large body's memory back
   buffered_bytes_ -= static_cast<int64_t>(end - body_bytes);  // the body counts until it is answered
   c.head.reset();
+  c.has_skipped_line = false;
+  c.ahead = 0;
+  c.half_closed_ms = 0.0;
   c.phase = Phase::serving;
   c.deadline_ms = INFINITY;
   c.exchange = exchange;
@@ -263,13 +278,12 @@ void Front::take_finished() {
     Connection& c = *found->second;
     buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
     c.exchange = nullptr;
-    done.served.close |= c.close_after;
     begin_write(c, std::move(done.served));
   }
 }
 
 void Front::refuse(Connection& c, const Problem& problem) {
-  begin_write(c, {refuse_(problem, c.client), nullptr, true});
+  begin_write(c, refuse_(problem, c.client, c.in.rfind("HEAD ", 0) == 0));
 }
 
 // Over the budget the largest body that is still arriving goes, the oldest of equals: whoever stalls with a large one

@@ -4,6 +4,12 @@
 // that is capped, and never a thread: over the cap those go that hold most of it, and not those that come next.
 // Pipelined requests are answered one after the other. A response may be a stream: it takes no worker, is asked for its
 // next piece at each tick once the last has been taken, and so holds one piece for a slow reader and never more.
+//
+// A client that shuts down its sending side waits for its answers (RFC 9112, 6.3) and gets them. One that has closed
+// its connection looks the same until something is sent to it, which it answers with a reset. So while a worker has the
+// request of such a client, the response's first bytes are sent ahead, which are the same whatever it will be: one
+// after a second, then whenever the wait has doubled. A reset, and a peer that no longer answers the kernel's
+// keep-alive probes, cancel the request.
 #pragma once
 
 #include <atomic>
@@ -28,9 +34,10 @@ namespace tilelight::server {
 // A complete request on its way through a worker.
 struct Exchange {
   uint64_t connection = 0;
-  std::string head, body;
+  Head head;
+  std::string body;
   std::string client;     // the peer's address
-  std::stop_source gone;  // asked to stop when the client closes its connection
+  std::stop_source gone;  // asked to stop when the client has left
 };
 
 struct FrontOptions {
@@ -44,6 +51,7 @@ struct FrontOptions {
   double head_timeout_ms = 10'000.0;                // from a request's first byte to the end of its head
   double idle_timeout_ms = 60'000.0;                // between requests
   double write_timeout_ms = 20'000.0;               // without progress
+  double probe_ms = 1'000.0;                        // from a client's end of sending to the first byte ahead
   double min_bytes_per_ms = 64.0;       // the slowest body, either way, that is waited for, beside the time-outs
   double brisk_bytes_per_ms = 1'024.0;  // a reader as fast as this keeps its response also where memory is short
 };
@@ -53,7 +61,7 @@ class Front {
   // Runs a complete request; called by workers.
   using Serve = std::function<Served(Exchange&)>;
   // The whole response to a request refused before it was complete; called by the socket thread.
-  using Refuse = std::function<std::string(const Problem&, const std::string& client)>;
+  using Refuse = std::function<Served(const Problem&, const std::string& client, bool is_head)>;
 
   // Errors: bind (the address cannot be had). Connections queue from here on; start() serves them.
   static Result<std::unique_ptr<Front>> bind(FrontOptions options, Serve serve, Refuse refuse);
@@ -81,7 +89,10 @@ class Front {
     Served out;
     size_t written = 0;
     std::optional<Head> head;
-    bool close_after = false, has_continued = false;
+    bool close_after = false, has_continued = false, has_skipped_line = false;
+    size_t ahead = 0;             // bytes of the response that were sent before it was there
+    double half_closed_ms = 0.0;  // while it is being served: when its client ended its sending; 0: it has not
+    double probe_at_ms = 0.0;
     double since_ms = 0.0;  // when its request, its response or its idleness began
     double deadline_ms = 0.0;
     std::shared_ptr<Exchange> exchange;
@@ -108,6 +119,7 @@ class Front {
   void write_some(Connection& c);
   void end_write(Connection& c);
   void pump_streams();
+  void probe_half_closed();
   void discard(Connection& c);
   bool make_unread_room();
   void take_finished();

@@ -63,12 +63,12 @@ void Front::begin_write(Connection& c, Served response) {
   if (response.size() > kSmallBytes && !make_unread_room()) {
     unread_.remove(response);
     const Problem full{503, "memory", "too many clients read large responses slowly", {}, {{"Retry-After", "5"}}};
-    response = {refuse_(full, c.client), nullptr, true};
+    response = refuse_(full, c.client, false);
     unread_.add(response);
   }
   c.phase = Phase::writing;
   c.out = std::move(response);
-  c.written = 0;
+  c.written = std::exchange(c.ahead, 0);
   c.close_after = c.out.close;
   if (c.close_after) {  // what else it sends is not read
     buffered_bytes_ -= static_cast<int64_t>(c.in.size());
@@ -134,6 +134,25 @@ void Front::pump_streams() {
     c->since_ms = now_ms();
     c->deadline_ms = c->since_ms + options_.write_timeout_ms;
     write_some(*c);
+  }
+}
+
+void Front::probe_half_closed() {
+  const double now = now_ms();
+  std::vector<uint64_t> late;
+  for (const auto& [id, c] : connections_) {
+    if (c->phase == Phase::serving && c->half_closed_ms > 0.0 && now >= c->probe_at_ms) late.push_back(id);
+  }
+  for (const uint64_t id : late) {
+    Connection& c = *connections_.at(id);
+    if (c.ahead == kResponseStart.size()) continue;
+    const ssize_t sent = send(c.fd, kResponseStart.data() + c.ahead, 1, MSG_NOSIGNAL);
+    if (sent < 0 && errno != EAGAIN && errno != EINTR) {
+      close_connection(id);
+      continue;
+    }
+    c.ahead += sent > 0;
+    c.probe_at_ms = now + (now - c.half_closed_ms);
   }
 }
 

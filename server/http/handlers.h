@@ -40,7 +40,7 @@ Reply get_limits(Services&, const Request&);
 Reply get_scene_schema(Services&, const Request&);
 Reply get_openapi(Services&, const Request&);
 Reply get_page_file(Services&, const Request&);
-bool is_page_file(std::string_view path);
+bool is_page_file(const std::vector<std::string>& segments);
 
 // handlers_admin.cpp
 Reply get_livez(Services&, const Request&);

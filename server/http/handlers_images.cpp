@@ -73,7 +73,9 @@ Reply get_render_image(Services& services, const Request& request) {
   const bool has_lines = *layer == Layer::color && draws_lines(work->request().view);
   const auto format = image_format_for(request, image_formats(has_lines), record->format);
   if (!format) return ::tl::unexpected(format.error());
-  const bool wants_partial = request.param("partial") == "1";
+  const auto partial = request.param("partial");
+  if (partial && *partial != "1") return problem(400, "bad_query", "partial must be 1, or be left out");
+  const bool wants_partial = partial.has_value();
   const JobState state = record->status.state;
   if (state != JobState::done) {
     if (wants_partial) return partial_image(services, *work, *layer, *format);
@@ -111,6 +113,7 @@ Reply get_scene_image(Services& services, const Request& request) {
     // Not to be used unasked: another version of this program may render it otherwise, under another tag.
     response.with("ETag", etag).with("Cache-Control", "private, no-cache").with("Vary", "Accept");
   };
+  if (!is_match_met(request, {true, etag})) return ::tl::unexpected<Problem>(precondition_failed({true, etag}));
   if (has_current(request, etag)) {
     Response response = empty_response(304);
     label(response);

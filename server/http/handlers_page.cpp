@@ -5,6 +5,7 @@
 #include "server/http/documents.h"
 #include "server/http/handlers.h"
 #include "server/http/page_files.h"
+#include "server/http/target.h"
 
 namespace tilelight::server {
 namespace {
@@ -13,10 +14,11 @@ constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
     "form-action 'none'; base-uri 'none'; frame-ancestors 'none'";
 
-const EmbeddedFile* find_page_file(std::string_view path) {
-  if (path == "/") path = "/index.html";
-  const auto file =
-      std::find_if(kPageFiles.begin(), kPageFiles.end(), [&](const EmbeddedFile& f) { return f.path == path; });
+// By segments, so that an encoded / in one of them is none.
+const EmbeddedFile* find_page_file(std::vector<std::string> segments) {
+  if (segments.size() == 1 && segments[0].empty()) segments[0] = "index.html";
+  const auto is_at = [&](const EmbeddedFile& file) { return path_segments(file.path) == segments; };
+  const auto file = std::find_if(kPageFiles.begin(), kPageFiles.end(), is_at);
   return file == kPageFiles.end() ? nullptr : &*file;
 }
 
@@ -36,10 +38,10 @@ Response tagged_json(const Request& request, const std::string& json) {
 
 }  // namespace
 
-bool is_page_file(std::string_view path) { return find_page_file(path) != nullptr; }
+bool is_page_file(const std::vector<std::string>& segments) { return find_page_file(segments) != nullptr; }
 
 Reply get_page_file(Services&, const Request& request) {
-  const EmbeddedFile* file = find_page_file(request.path);
+  const EmbeddedFile* file = find_page_file(request.segments);
   if (!file) return problem(404, "no_page", "this program was built without the page");
   return tagged(request, file->etag, file->media_type, file->bytes)
       .with("Content-Security-Policy", kContentSecurityPolicy)

@@ -15,6 +15,8 @@ namespace {
                  "it that its record was dropped");
 }
 
+std::string render_etag(const WorkStatus& status) { return "W/\"" + std::to_string(status.revision) + "\""; }
+
 // Whether others may go on from it, or why not.
 ::tl::expected<void, Problem> check_refinable(Services& services, const JobRecord& record, const WorkPtr& work) {
   const JobState state = record.status.state;
@@ -50,6 +52,7 @@ Reply post_refine(Services& services, const Request& request) {
                       [&]() -> ::tl::expected<Ordered, Problem> {
                         const auto record = services.jobs.find(id);
                         if (!record) return no_such_render();
+                        if (auto met = check_conditions(request, {false}); !met) return ::tl::unexpected(met.error());
                         const WorkPtr work = services.jobs.work(id);
                         if (auto can = check_refinable(services, *record, work); !can)
                           return ::tl::unexpected(can.error());
@@ -102,7 +105,8 @@ Reply get_render(Services& services, const Request& request) {
   const std::string& id = request.args[0];
   auto record = services.jobs.find(id);
   if (!record) return no_such_render();
-  const auto etag = [&] { return "W/\"" + std::to_string(record->status.revision) + "\""; };
+  const auto etag = [&] { return render_etag(record->status); };
+  if (!is_match_met(request, {true, etag()})) return ::tl::unexpected<Problem>(precondition_failed({true, etag()}));
   const double wait_s = wait_seconds(request, 0.0);
   const WorkPtr work = services.jobs.work(id);
   // A client that says what it has waits for the next change of that; others for the next change from now.
@@ -120,6 +124,11 @@ Reply get_render(Services& services, const Request& request) {
 }
 
 Reply delete_render(Services& services, const Request& request) {
+  const auto record = services.jobs.find(request.args[0]);
+  if (!record) return no_such_render();
+  if (auto met = check_conditions(request, {true, render_etag(record->status)}); !met) {
+    return ::tl::unexpected(met.error());
+  }
   if (!services.jobs.forget(request.args[0])) return no_such_render();
   return empty_response(204);
 }

@@ -36,6 +36,7 @@ Reply post_session(Services& services, const Request& request) {
 Reply put_session_view(Services& services, const Request& request) {
   const SessionPtr session = services.sessions.find(request.args[0]);
   if (!session) return no_such_session();
+  if (auto met = check_conditions(request, {false}); !met) return ::tl::unexpected(met.error());
   auto body = read_view_body(request.body, session->base_view(), services.config.limits);
   if (!body) return ::tl::unexpected(body.error());
   if (!services.sessions.reserve(session->id(), body->seq, body->view.image)) {
@@ -83,6 +84,8 @@ Reply get_session_frame(Services& services, const Request& request) {
 }
 
 Reply delete_session(Services& services, const Request& request) {
+  if (!services.sessions.find(request.args[0])) return no_such_session();
+  if (auto met = check_conditions(request, {false}); !met) return ::tl::unexpected(met.error());
   if (!services.sessions.close(request.args[0])) return no_such_session();
   return empty_response(204);
 }

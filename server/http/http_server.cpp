@@ -6,26 +6,24 @@
 namespace tilelight::server {
 namespace {
 
-std::string refuse(Services& services, const Problem& problem, const std::string& client) {
+Served refuse(Services& services, const Problem& problem, const std::string& client, bool is_head) {
   const std::string id = random_hex(8);
   services.metrics.add("tilelight_http_refused_total", "status=\"" + std::to_string(problem.status) + "\"");
   services.log.write(LogLevel::info, "refused",
                      {{"id", id}, {"client", client}, {"status", int64_t{problem.status}}, {"code", problem.code}});
-  return closing_response(problem_response(problem, id).with("Request-Id", id));
+  return write_response(std::move(problem_response(problem, id).with("Request-Id", id)),
+                        {.is_head = is_head, .is_http_1_0 = false, .close = true});
 }
 
-Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) {
-  auto served = serve_head(exchange.head, false, [&](Request&& request) {
-    request.body = exchange.body;
-    request.client = exchange.client;
-    request.id = random_hex(8);
-    request.gone = exchange.gone.get_token();
-    return dispatch(services, routes, std::move(request));
-  });
-  if (served) return std::move(*served);
-  // The front has checked the head, so this is rare; it is logged and counted like the front's own refusals.
-  return {refuse(services, {400, "bad_request", "the request was not understood", {}, {}}, exchange.client), nullptr,
-          true};
+Served serve(Services& services, const std::vector<Route>& routes, Exchange& exchange) {
+  Head& head = exchange.head;
+  Request& request = head.request;
+  const ResponseForm form{request.method == "HEAD", head.is_http_1_0, head.closes};
+  request.body = exchange.body;
+  request.client = exchange.client;
+  request.id = random_hex(8);
+  request.gone = exchange.gone.get_token();
+  return write_response(dispatch(services, routes, std::move(request)), form);
 }
 
 }  // namespace
@@ -34,7 +32,9 @@ Result<std::unique_ptr<HttpServer>> HttpServer::bind(FrontOptions options, const
                                                      Services& services) {
   auto front = Front::bind(
       std::move(options), [&](Exchange& exchange) { return serve(services, routes, exchange); },
-      [&](const Problem& problem, const std::string& client) { return refuse(services, problem, client); });
+      [&](const Problem& problem, const std::string& client, bool is_head) {
+        return refuse(services, problem, client, is_head);
+      });
   if (!front) return ::tl::unexpected(front.error());
   auto server = std::make_unique<HttpServer>();
   server->front_ = std::move(*front);

@@ -14,6 +14,8 @@
 namespace tilelight::server {
 namespace {
 
+// A peer whose machine is gone answers nothing: it is noticed after 30 s of silence and three probes, 10 s apart.
+constexpr int kSilenceS = 30, kProbeS = 10, kProbes = 3;
 constexpr int kBacklog = 1024;  // a burst of connects waits here instead of being retried after a second
 
 // Numeric address of a peer. IPv4 that came over IPv6 reads as IPv4.
@@ -67,6 +69,10 @@ Result<Listener> listen_on(const std::string& host, int port) {
     if (fd >= 0) {
       const int on = 1;  // answers leave whole; without this the last segment waits for an acknowledgement
       setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+      setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+      setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &kSilenceS, sizeof kSilenceS);
+      setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &kProbeS, sizeof kProbeS);
+      setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &kProbes, sizeof kProbes);
       return Peer{fd, address_text(address, size)};
     }
     if (errno == EINTR || errno == ECONNABORTED) continue;

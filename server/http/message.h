@@ -26,16 +26,19 @@ struct CaseLess {
   }
 };
 
+using Headers = std::multimap<std::string, std::string, CaseLess>;  // of one name in the order in which they came
+
 struct Request {
-  std::string method;  // "GET", also where the client said HEAD: the body is left out at the end
-  std::string path;    // percent-decoded, without the query
-  std::multimap<std::string, std::string> query;
-  std::multimap<std::string, std::string, CaseLess> headers;
-  std::string_view body;          // lives as long as the request
-  std::string client;             // the peer's address
-  std::string id;                 // names the request in the log and in problems
-  std::stop_token gone;           // requested when the client closes its connection
-  std::vector<std::string> args;  // what the route's {names} matched
+  std::string method;                 // "GET", also where the client said HEAD: the body is left out at the end
+  std::string path;                   // as sent, without the query: for the log
+  std::vector<std::string> segments;  // of the path, each decoded by itself: "/a/b%2Fc" has "a" and "b/c"
+  std::multimap<std::string, std::string> query;  // decoded
+  Headers headers;                                // as sent: a percent sign in them is one
+  std::string_view body;                          // lives as long as the request
+  std::string client;                             // the peer's address
+  std::string id;                                 // names the request in the log and in problems
+  std::stop_token gone;                           // requested when the client closes its connection
+  std::vector<std::string> args;                  // what the route's {names} matched
 
   // The first value, or nothing.
   std::optional<std::string_view> header(std::string_view name) const {

@@ -11,7 +11,9 @@ struct Wish {
 
 // formats: those that there are of the picture.
 ::tl::expected<Wish, Problem> read_wish(const Request& request, const std::vector<ImageFormat>& formats) {
-  if (read_preferences(request).respond_async) return Wish{};
+  // With both, it is a job where it takes longer than the wait (RFC 7240, 4.3).
+  const Preferences preferences = read_preferences(request);
+  if (preferences.respond_async && !preferences.wait_s) return Wish{};
   const auto image = asked_image_format(request, formats);
   if (!image && !best_offer(request, {"application/json"})) {
     return problem(

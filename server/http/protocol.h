@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The door to cpp-httplib: it reads the head of a request that has arrived whole and writes the response, both in
-// memory. Sockets, bodies and limits are the front's (front.h), routing is the route table's. Any thread.
+// The door to cpp-httplib: it writes the responses, in memory. Requests do not reach it: as Debian ships it (0.11.4) it
+// decodes percent signs in the values of headers, after everything that checks them; scan_head (head.h) reads them.
+// Sockets, bodies and limits are the front's (front.h), routing is the route table's. Any thread.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "server/http/message.h"
 
 namespace tilelight::server {
+
+// What every response begins with, whatever comes of the request.
+inline constexpr std::string_view kResponseStart = "HTTP/1.1 ";
 
 // A response on its way to the client.
 struct Served {
@@ -23,12 +26,12 @@ struct Served {
   size_t size() const { return bytes.size() + (body ? body->size() : 0); }
 };
 
-// Parses the head (complete, with its empty line), calls `handle` and writes its response. `handle` must not throw.
-// Nothing if the library did not understand the head, and `handle` was not called.
-std::optional<Served> serve_head(const std::string& head, bool close_after,
-                                 const std::function<Response(Request&&)>& handle);
-
-// A response to a request that was not understood; the connection is to be closed.
-std::string closing_response(const Response& response);
+// What of a request decides how its response is written.
+struct ResponseForm {
+  bool is_head = false;  // without its body
+  bool is_http_1_0 = false;
+  bool close = false;  // the connection, after it
+};
+Served write_response(Response&& response, ResponseForm form);
 
 }  // namespace tilelight::server

@@ -312,24 +312,20 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
                                       {"width", "image", false},    {"height", "image", false},
                                       {"exposure", "image", false}, {"samples", "render", false}};
   std::map<std::string, std::string> groups;
-  std::vector<std::string> names;
-  for (const Param& param : kParams) names.emplace_back(param.name);
   MemberErrors errors;
-  for (const auto& [name, text] : request.query) {
-    const auto param =
-        std::find_if(std::begin(kParams), std::end(kParams), [&](const Param& p) { return name == p.name; });
-    if (param == std::end(kParams) || request.query.count(name) > 1) {
-      errors.add(name, param == std::end(kParams) ? "unknown_key" : "duplicate_key",
-                 "query parameters, each at most once: " + join(names), names);
-      continue;
-    }
-    const auto value = query_numbers(text, param->is_vector);
+  for (const Param& param : kParams) {
+    const std::string name = param.name;
+    const auto text = request.param(name);
+    if (!text) continue;
+    const auto value = query_numbers(*text, param.is_vector);
     if (!value) {
-      errors.add(std::string(param->group) + "/" + name, "wrong_type",
-                 param->is_vector ? "three numbers with commas, like 4,5,9" : "a number");
+      errors.add(std::string(param.group) + "/" + name, "wrong_type",
+                 std::string(param.is_vector ? "three numbers with commas, like 4,5,9" : "a number") + "; found '" +
+                     std::string(text->substr(0, 64)) + "'" +
+                     (text->find(' ') == std::string_view::npos ? "" : " (a + in a query is a blank; write %2B)"));
       continue;
     }
-    std::string& group = groups[param->group];
+    std::string& group = groups[param.group];
     group += (group.empty() ? "\"" : ", \"") + name + "\": " + *value;
   }
   if (!errors.empty()) return errors.problem();

@@ -48,7 +48,7 @@ struct ViewBody {
 
 // A view from the query of a picture's address:
 // position=4,5,9&target=..&up=..&fov_y_deg=..&width=..&height=..&samples=.. &exposure=... Errors point into the view
-// that the query spells: /camera/position.
+// that the query spells: /camera/position. Other names are the route table's to refuse.
 ::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits);
 
 }  // namespace tilelight::server

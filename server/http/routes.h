@@ -2,6 +2,7 @@
 // The routes of the API and of the admin port, each as one table, and the way from a request to its handler.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct Route {
   std::string_view method;
   std::string_view pattern;  // "/v1/renders/{id}": {names} match one segment and become request.args in order
   Reply (*handler)(Services&, const Request&);
+  // The names that its query may have, each once; openapi.json describes them.
+  std::vector<std::string> query = {};
+  // A query means nothing to the server and is let through: to the page it may, and links to pages get them.
+  bool ignores_query = false;
 };
 
 const std::vector<Route>& api_routes();

@@ -4,6 +4,7 @@
 
 #include <strings.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,25 @@ namespace tilelight::server {
 // Names of headers, hosts and media types: case does not count.
 inline bool is_same_name(std::string_view a, std::string_view b) {
   return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
+}
+
+// Whether the text begins so; case does not count.
+inline bool has_prefix(std::string_view text, std::string_view prefix) {
+  return is_same_name(text.substr(0, prefix.size()), prefix);
+}
+
+// 1*DIGIT
+inline bool is_digits(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// A method or the name of a header (RFC 9110, 5.6.2).
+inline bool is_token(std::string_view text) {
+  constexpr std::string_view kOthers = "!#$%&'*+-.^_`|~";
+  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           kOthers.find(c) != std::string_view::npos;
+  });
 }
 
 // Without the blanks around it (OWS, RFC 9110, 5.6.3).

@@ -13,8 +13,9 @@ export const readInput = (name) => readFile(inputPath(name));
 export const readJson = async (name) => JSON.parse(await readFile(inputPath(name), 'utf8'));
 
 // Sends `bytes` over a connection of its own and reads until the server closes or `quietMs` pass without a byte;
-// {text, isClosed}: all that came, as Latin-1, and whether the server closed. halfClose: ends the sending side first.
-export function sendBytes(port, bytes, { halfClose = false, quietMs = 1500 } = {}) {
+// {text, isClosed}: all that came, as Latin-1, and whether the server closed. halfClose: ends the sending side first;
+// oneByOne: each byte leaves by itself.
+export function sendBytes(port, bytes, { halfClose = false, oneByOne = false, quietMs = 1500 } = {}) {
   return new Promise((resolve, reject) => {
     const socket = net.connect({ port, host: '127.0.0.1', allowHalfOpen: true });
     const chunks = [];
@@ -26,8 +27,13 @@ export function sendBytes(port, bytes, { halfClose = false, quietMs = 1500 } = {
     socket.on('data', (chunk) => chunks.push(chunk));
     socket.on('end', () => finish(true));
     socket.on('error', reject);
-    if (halfClose) socket.end(bytes);
-    else socket.write(bytes);
+    const send = async () => {
+      const pieces = oneByOne ? Array.from(Buffer.from(bytes), (byte) => Buffer.from([byte])) : [bytes];
+      socket.setNoDelay(oneByOne);
+      for (const piece of pieces) await new Promise((sent) => { socket.write(piece, sent); });
+      if (halfClose) socket.end();
+    };
+    socket.once('connect', send);
   });
 }
 

@@ -27,6 +27,28 @@ TEST_F(Discovery, TheDescriptionOfTheApiHasExactlyTheRoutesOfTheTable) {
   EXPECT_EQ(described, routes);
 }
 
+std::set<std::string> query_names(const Json& document, const Json& parameters) {
+  std::set<std::string> names;
+  for (const Json& parameter : parameters) {
+    const std::string reference = parameter.value("$ref", "");
+    const Json& resolved = reference.empty() ? parameter : document.at(Json::json_pointer(reference.substr(1)));
+    if (resolved.at("in") == "query") names.insert(resolved.at("name"));
+  }
+  return names;
+}
+
+TEST_F(Discovery, TheDescriptionHasExactlyTheQueryParametersOfTheTable) {
+  const Json document = Json::parse(service_->get("/openapi.json").body);
+  for (const server::Route& route : server::api_routes()) {
+    std::string method(route.method);
+    for (char& c : method) c = static_cast<char>(std::tolower(c));
+    const Json& operation = document.at("paths").at(std::string(route.pattern)).at(method);
+    EXPECT_EQ(query_names(document, operation.value("parameters", Json::array())),
+              std::set<std::string>(route.query.begin(), route.query.end()))
+        << route.pattern;
+  }
+}
+
 void collect_references(const Json& json, std::set<std::string>& out) {
   if (json.is_object() && json.contains("$ref")) out.insert(json.at("$ref"));
   if (json.is_structured()) {

@@ -94,9 +94,9 @@ TEST_F(Errors, AWrongMethodIs405AndAllowNamesTheRightOnes) {
   const auto answer = ask(service_->port(), "DELETE", "/v1/renders");
   EXPECT_EQ(answer.status, 405);
   problem_of(answer);
-  EXPECT_EQ(answer.header("allow"), "POST, GET, HEAD");
-  EXPECT_EQ(ask(service_->port(), "PATCH", "/v1/sessions/x/view").header("allow"), "PUT");
-  EXPECT_EQ(ask(service_->port(), "PUT", "/").header("allow"), "GET, HEAD");
+  EXPECT_EQ(answer.header("allow"), "POST, GET, HEAD, OPTIONS");
+  EXPECT_EQ(ask(service_->port(), "PATCH", "/v1/sessions/x/view").header("allow"), "PUT, OPTIONS");
+  EXPECT_EQ(ask(service_->port(), "PUT", "/").header("allow"), "GET, HEAD, OPTIONS");
 }
 
 TEST_F(Errors, UnknownPathsAndLaterReleasesAre404) {

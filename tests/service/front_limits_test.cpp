@@ -21,11 +21,12 @@ class OwnFront {
   explicit OwnFront(server::FrontOptions options) {
     options.workers = 2;
     const auto serve = [](server::Exchange& exchange) {
-      const bool is_large = exchange.head.find(" /large ") != std::string::npos;
+      const bool is_large = exchange.head.request.path == "/large";
       return server::Served{answer_of(is_large ? kLarge : 0)};
     };
-    const auto refuse = [](const server::Problem& problem, const std::string&) {
-      return "HTTP/1.1 " + std::to_string(problem.status) + " Refused\r\nContent-Length: 0\r\n\r\n";
+    const auto refuse = [](const server::Problem& problem, const std::string&, bool) {
+      return server::Served{"HTTP/1.1 " + std::to_string(problem.status) + " Refused\r\nContent-Length: 0\r\n\r\n",
+                            nullptr, true};
     };
     front_ = std::move(*server::Front::bind(std::move(options), serve, refuse));
     front_->start();

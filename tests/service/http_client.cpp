@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace tilelight::service {
 namespace {
@@ -108,6 +109,17 @@ size_t HttpClient::skip(size_t most) {
   std::string bytes(most, '\0');
   const ssize_t got = recv(fd_, bytes.data(), bytes.size(), 0);
   return got > 0 ? static_cast<size_t>(got) : 0;
+}
+
+bool HttpClient::has_bytes() const {
+  char byte;
+  return !buffer_.empty() || recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
+}
+
+void HttpClient::abort_connection() {
+  const linger at_once{1, 0};
+  setsockopt(fd_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+  ::close(std::exchange(fd_, -1));
 }
 
 void HttpClient::shut_down_sending() { shutdown(fd_, SHUT_WR); }

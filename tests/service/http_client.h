@@ -42,6 +42,10 @@ class HttpClient {
   // True if the server closes the connection without another byte.
   bool at_end();
   void shut_down_sending();
+  // Leaves at once, as a process that is killed over unread data does: by a reset.
+  void abort_connection();
+  // Whether something has come that was not read.
+  bool has_bytes() const;
   // Reads at most so many bytes and forgets them. 0: the connection has ended.
   size_t skip(size_t most);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pure parts of the server by themselves: heads, spans of JSON, negotiation, configuration, log lines, times.
+// The pure parts of the server by themselves (heads: head_test.cpp): spans of JSON, negotiation, configuration, log
+// lines, times.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -7,7 +8,6 @@
 
 #include "server/clock.h"
 #include "server/config.h"
-#include "server/http/head.h"
 #include "server/http/json_members.h"
 #include "server/http/negotiate.h"
 #include "server/jobs/job.h"
@@ -15,23 +15,6 @@
 
 namespace tilelight::server {
 namespace {
-
-TEST(Head, IsFoundAtTheSamePlaceHoweverItArrives) {
-  const std::string request =
-      "POST /v1/renders?x=1 HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nRange: bytes=0-1\r\n\r\n{}";
-  const size_t end = request.size() - 2;
-  for (size_t size = 0; size <= request.size(); ++size) {
-    const auto head = scan_head(request.substr(0, size), {});
-    ASSERT_TRUE(head) << size;
-    ASSERT_EQ(head->has_value(), size >= end) << size;
-    if (!*head) continue;
-    EXPECT_EQ((*head)->bytes, end);
-    EXPECT_EQ((*head)->body_bytes, 2);
-    EXPECT_EQ((*head)->text, "POST /v1/renders?x=1 HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n");
-  }
-}
-
-TEST(Head, OfHttp10NeedsNoHost) { EXPECT_TRUE(scan_head("GET / HTTP/1.0\r\n\r\n", {})->has_value()); }
 
 TEST(JsonMembers, AreTheTopLevelOnes) {
   const std::string text = R"( {"a": {"b": "}\"", "c": [1, {"d": 2}]}, "e" : "x,y", "f":1.5e3 , "g": null} )";
@@ -115,11 +98,60 @@ TEST(Accept, AnSvgIsOfferedOfLinesAloneAndOnlyToWhoPrefersIt) {
   EXPECT_EQ(asked("image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8", true), ImageFormat::png);
 }
 
-TEST(Prefer, IsReadFromLists) {
-  EXPECT_EQ(read_preferences(with_header("Prefer", "respond-async, wait=10")).wait_s, 10.0);
-  EXPECT_TRUE(read_preferences(with_header("Prefer", "respond-async, wait=10")).respond_async);
-  EXPECT_EQ(read_preferences(with_header("Prefer", "wait=-1")).wait_s, std::nullopt);
-  EXPECT_EQ(read_preferences(with_header("Prefer", "wait=x")).wait_s, std::nullopt);
+// {wait, respond-async} as a client has spelled them.
+std::pair<std::optional<double>, bool> preferred(std::string prefer) {
+  const Preferences preferences = read_preferences(with_header("Prefer", std::move(prefer)));
+  return {preferences.wait_s, preferences.respond_async};
+}
+constexpr auto kNothing = std::pair<std::optional<double>, bool>(std::nullopt, false);
+
+TEST(Prefer, IsReadAsRfc7240SpellsIt) {
+  const std::pair<std::optional<double>, bool> ten{10.0, false}, both{10.0, true}, job{std::nullopt, true};
+  EXPECT_EQ(preferred("wait=10"), ten);
+  EXPECT_EQ(preferred("WAIT = \"10\""), ten) << "names without case, blanks around =, a quoted value";
+  EXPECT_EQ(preferred("wait=10; foo=bar"), ten) << "a parameter";
+  EXPECT_EQ(preferred("wait=10;foo=\"a;b,wait=5\" ; x"), ten);
+  EXPECT_EQ(preferred("foo; wait=5, wait=10"), ten) << "a parameter is no preference";
+  EXPECT_EQ(preferred("foo=\"wait=5, respond-async\", wait=\"1\\0\""), ten) << "nor is what stands in quotes";
+  EXPECT_EQ(preferred("respond-async, wait=10"), both) << "the example of section 4.3";
+  EXPECT_EQ(preferred("Respond-Async; x=1"), job);
+  EXPECT_EQ(preferred("respond-async=\"\""), job) << "an empty value is none";
+  EXPECT_EQ(preferred("wait=99999999999999999999").first, 1e20);
+}
+
+TEST(Prefer, OfTwoWaitsTheFirstCounts) {
+  EXPECT_EQ(preferred("wait=10, wait=20").first, 10.0);
+  EXPECT_EQ(preferred("wait=soon, wait=20").first, std::nullopt) << "also where it is not understood";
+  Request request = with_header("Prefer", "wait=10");
+  request.headers.emplace("prefer", "wait=20");
+  EXPECT_EQ(read_preferences(request).wait_s, 10.0);
+}
+
+TEST(Prefer, ThatMeansNothingIsIgnored) {
+  for (const char* text : {"", "wait", "wait=", "wait=\"\"", "wait=-1", "wait=+1", "wait=x", "wait=1e1", "wait=inf",
+                           "wait=nan", "wait=0x10", "wait=10%30", "respond-async=yes", "respond-asyncs", ";wait=10",
+                           "handling=lenient", "=", ";;,,"}) {
+    EXPECT_EQ(preferred(text), kNothing) << text;
+  }
+}
+
+TEST(IfMatch, IsMetByAStrongTagAlone) {
+  const auto met = [](std::string value, const Current& current) {
+    return is_match_met(with_header("If-Match", std::move(value)), current);
+  };
+  const Current strong{true, "\"a,b\""}, weak{true, "W/\"a\""}, untagged{true, ""}, nothing{false, ""};
+  EXPECT_TRUE(is_match_met({}, strong));
+  EXPECT_TRUE(met("\"x\", \"a,b\"", strong));
+  EXPECT_FALSE(met("W/\"a,b\"", strong));
+  EXPECT_FALSE(met("\"a\"", strong));
+  EXPECT_FALSE(met("a,b", strong));
+  EXPECT_FALSE(met("", strong));
+  EXPECT_FALSE(met("W/\"a\"", weak)) << "the strong comparison knows no weak tags";
+  EXPECT_FALSE(met("\"a\"", weak));
+  EXPECT_TRUE(met("*", weak));
+  EXPECT_TRUE(met("*", untagged));
+  EXPECT_FALSE(met("*", nothing));
+  EXPECT_FALSE(met("\"a\"", untagged));
 }
 
 TEST(IfNoneMatch, ComparesWeaklyAndKnowsLists) {
@@ -179,6 +211,11 @@ TEST(LogLine, StaysALineWhateverAClientSends) {
   const auto json = nlohmann::json::parse(log_line_json("now", "info", "request", fields));
   EXPECT_EQ(json.at("path"), "/a\nb \"c\"");
   EXPECT_EQ(log_line_json("now", "info", "x", {{"y", "\xff\n"}}).find('\n'), std::string::npos);
+}
+
+TEST(Time, OfHttpIsWrittenByRfc9110) {
+  EXPECT_EQ(http_date(784'111'777'999), "Sun, 06 Nov 1994 08:49:37 GMT") << "its own example";
+  EXPECT_EQ(http_date(951'782'400'123), "Tue, 29 Feb 2000 00:00:00 GMT");
 }
 
 TEST(Time, IsWrittenByRfc3339) {
