@@ -45,8 +45,11 @@ int WaitSlots::free() const {
 
 ::tl::expected<CompiledPtr, Problem> wait_compiled(Services& services, const Request& request, const ScenePtr& scene,
                                                    Priority priority) {
-  if (auto compiled = services.compiled.wait(scene, priority, request.gone)) return compiled;
+  const auto until = after_ms(services.config.max_wait_s * 1000.0);
+  const auto compiled = services.compiled.wait(scene, priority, request.gone, until);
+  if (compiled && *compiled) return *compiled;
   if (request.gone.stop_requested()) return client_gone();
+  if (!compiled) return busy("compiling", "the scene is still being compiled; ask again for what has come of it", 5);
   return problem(500, "internal", "the scene could not be compiled");
 }
 
@@ -55,9 +58,14 @@ std::optional<int64_t> number_param(const Request& request, const std::string& n
   return text ? whole_number<int64_t>(*text) : std::nullopt;
 }
 
-double wait_seconds(const Request& request, double default_s) {
-  constexpr double kMostS = 60.0;
-  return std::min(read_preferences(request).wait_s.value_or(default_s), kMostS);
+double wait_seconds(const Services& services, const Request& request, double default_s) {
+  return std::min<double>(read_preferences(request).wait_s.value_or(default_s), services.config.max_wait_s);
+}
+
+void tell_wait(const Services& services, const Request& request, Response& response) {
+  if (!read_preferences(request).wait_s) return;
+  const int granted_s = static_cast<int>(wait_seconds(services, request, 0.0));
+  response.with("Preference-Applied", "wait=" + std::to_string(granted_s));
 }
 
 ::tl::unexpected<Problem> refused(Services& services, const Error& error) {
@@ -127,19 +135,18 @@ Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFo
   return response;
 }
 
-Response accepted_response(const JobRecord& record, const Request& request) {
-  Response response = json_response(202, job_json(record));
+Response accepted_response(const Services& services, const JobRecord& record, const Request& request) {
+  Response response = json_response(202, job_json(record, request.prefix));
   const double eta_s = record.status.progress.eta_ms / 1000.0;
   const int retry_s = std::clamp(static_cast<int>(std::ceil(eta_s)), 1, 30);
-  response.with("Location", "/v1/renders/" + record.id)
+  response.with("Location", location_of(request, "/v1/renders/" + record.id))
       .with("Retry-After", std::to_string(retry_s))
       .with("Vary", "Accept, Prefer")
       .with("Cache-Control", "no-store");
-  const Preferences preferences = read_preferences(request);
-  if (preferences.respond_async) {
+  if (read_preferences(request).respond_async) {
     response.with("Preference-Applied", "respond-async");
-  } else if (preferences.wait_s) {
-    response.with("Preference-Applied", "wait=" + std::to_string(static_cast<int>(wait_seconds(request, 0.0))));
+  } else {
+    tell_wait(services, request, response);
   }
   return response;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/http_server.h"
 
+#include "server/http/forwarded.h"
 #include "server/random_id.h"
 
 namespace tilelight::server {
@@ -18,6 +19,7 @@ Served serve(Services& services, const std::vector<Route>& routes, const Exchang
   auto served = serve_head(exchange.head, false, [&](Request&& request) {
     request.body = exchange.body;
     request.client = exchange.client;
+    believe_proxies(request, services.config.trusted_proxies);
     request.id = random_hex(8);
     request.gone = exchange.gone.get_token();
     return dispatch(services, routes, std::move(request));

@@ -32,7 +32,10 @@ struct Request {
   std::multimap<std::string, std::string> query;
   std::multimap<std::string, std::string, CaseLess> headers;
   std::string_view body;          // lives as long as the request
-  std::string client;             // the peer's address
+  std::string client;             // the address of who asks: the peer's, or what a trusted proxy says
+  std::string scheme;             // under which the client asks; empty where no trusted proxy says it
+  std::string host;               // that the client asks, as in Host
+  std::string prefix;             // of our paths as the client sees them, "/render"; empty: none
   std::string id;                 // names the request in the log and in problems
   std::stop_token gone;           // requested when the client closes its connection
   std::vector<std::string> args;  // what the route's {names} matched

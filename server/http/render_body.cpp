@@ -302,7 +302,8 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   return out;
 }
 
-::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits) {
+::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits,
+                                              std::initializer_list<std::string_view> others) {
   struct Param {
     const char *name, *group;
     bool is_vector;
@@ -314,15 +315,18 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
   std::map<std::string, std::string> groups;
   std::vector<std::string> names;
   for (const Param& param : kParams) names.emplace_back(param.name);
+  names.insert(names.end(), others.begin(), others.end());
   MemberErrors errors;
   for (const auto& [name, text] : request.query) {
     const auto param =
         std::find_if(std::begin(kParams), std::end(kParams), [&](const Param& p) { return name == p.name; });
-    if (param == std::end(kParams) || request.query.count(name) > 1) {
-      errors.add(name, param == std::end(kParams) ? "unknown_key" : "duplicate_key",
+    const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
+    if (!is_known || request.query.count(name) > 1) {
+      errors.add(name, is_known ? "duplicate_key" : "unknown_key",
                  "query parameters, each at most once: " + join(names), names);
       continue;
     }
+    if (param == std::end(kParams)) continue;
     const auto value = query_numbers(text, param->is_vector);
     if (!value) {
       errors.add(std::string(param->group) + "/" + name, "wrong_type",

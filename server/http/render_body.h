@@ -49,6 +49,8 @@ struct ViewBody {
 // A view from the query of a picture's address:
 // position=4,5,9&target=..&up=..&fov_y_deg=..&width=..&height=..&samples=.. &exposure=... Errors point into the view
 // that the query spells: /camera/position.
-::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits);
+// others: parameters that the route reads by itself.
+::tl::expected<View, Problem> read_view_query(const Request& request, const View& base, const Limits& limits,
+                                              std::initializer_list<std::string_view> others = {});
 
 }  // namespace tilelight::server
