@@ -92,8 +92,8 @@ test('openapi-typescript makes types by which openapi-fetch renders a scene', { 
   await compileAndRun('by_types');
 });
 
-test('openapi-typescript-codegen makes services that render a scene', { timeout: 120_000 }, async () => {
-  await tool('openapi-typescript-codegen/bin/index.js', '--input', kFile, '--output', `${kGenerated}services`,
-    '--client', 'fetch');
-  await compileAndRun('by_services');
+test('openapi-ts of Hey API makes functions that render a scene', { timeout: 120_000 }, async () => {
+  await tool('@hey-api/openapi-ts/bin/index.cjs', '-i', kFile, '-o', `${kGenerated}functions`,
+    '-c', '@hey-api/client-fetch');
+  await compileAndRun('by_functions');
 });
