@@ -70,12 +70,13 @@ App::App(Config config, const Clock& clock)
       jobs_(Jobs::make(
           std::make_unique<MemoryJobStore>(size_t{kMaxJobRecords}), clock,
           {config_.max_results, config_.results_mb << 20, {config_.films_mb << 20, config_.film_keep_s * 1000.0}})),
+      pictures_(config_.pictures_mb << 20),
       sessions_(pool_, clock, config_.max_sessions),
       keys_(clock),
       waits_(config_.max_waiting),
       streams_(config_.max_streams),
-      services_{config_, log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,
-                *jobs_,  sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
+      services_{config_,   log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,     *jobs_,
+                pictures_, sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
 
 void App::add_gauges() {
   metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",

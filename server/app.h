@@ -45,6 +45,7 @@ class App {
   std::shared_ptr<CompiledCache> compiled_;
   std::shared_ptr<JobQueue> queue_;
   std::shared_ptr<Jobs> jobs_;
+  KeptPictures pictures_;
   Sessions sessions_;
   IdempotencyKeys keys_;
   WaitSlots waits_, streams_;

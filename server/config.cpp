@@ -74,6 +74,17 @@ Result<void> set_allowed_hosts(Config& config, const std::string& text) {
   return {};
 }
 
+Result<void> set_trusted_proxies(Config& config, const std::string& text) {
+  config.trusted_proxies.clear();
+  std::stringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto network = parse_network(word);
+    if (!network) return ::tl::unexpected(network.error());
+    config.trusted_proxies.push_back(*network);
+  }
+  return {};
+}
+
 Result<void> set_log_level(Config& config, const std::string& text) {
   for (const char* known : {"debug", "info", "warn", "error", "off"}) {
     if (text == known) return config.log_level = text, Result<void>{};
@@ -148,13 +159,23 @@ const std::vector<Setting>& settings() {
       {"allow-open", "", "allow a public address although there are no keys", set_allow_open},
       {"allowed-hosts", "NAMES", "names accepted in the Host header beside localhost and addresses, with commas",
        set_allowed_hosts},
+      {"trusted-proxy", "ADDRESSES",
+       "addresses and networks (10.0.0.0/8) of proxies whose X-Forwarded-For, -Proto, -Host and -Prefix count, with "
+       "commas [none]",
+       set_trusted_proxies},
       {"threads", "N", "render threads; 0: one a hardware thread [0]", number(&Config::threads, 0, 1024)},
       {"max-queue", "N", "renders that may wait for their start; more are answered 503 [256]",
        number(&Config::max_queue, 0, 1'000'000)},
+      {"max-wait-s", "S",
+       "longest that a request waits for a render, a change or a frame without a byte; keep it below the time-outs of "
+       "proxies [40]",
+       number(&Config::max_wait_s, 1, 3600)},
       {"max-sessions", "N", "interactive sessions at once [64]", number(&Config::max_sessions, 0, 100'000)},
       {"scene-cache-mb", "MB", "compiled scenes kept for reuse [1024]", number(&Config::scene_cache_mb, 0, 1 << 20)},
       {"results-mb", "MB", "finished images kept [512]", number(&Config::results_mb, 1, 1 << 20)},
       {"max-results", "N", "finished renders kept [1000]", number(&Config::max_results, 1, kMaxJobRecords)},
+      {"pictures-mb", "MB", "pictures of stored scenes kept, so that asking again renders nothing [64]",
+       number(&Config::pictures_mb, 0, 1 << 20)},
       {"films-mb", "MB", "films of finished renders kept, so that these can be refined; 0: none [1024]",
        number(&Config::films_mb, 0, 1 << 20)},
       {"film-keep-s", "S", "how long a film is kept at most [300]", number(&Config::film_keep_s, 0, 86'400)},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "server/address.h"
 
 namespace tilelight::server {
 
@@ -25,14 +26,17 @@ struct Config {
   std::string data_dir = ":memory:";
   bool allow_open = false;                 // a public bind without keys
   std::vector<std::string> allowed_hosts;  // names accepted in Host beside localhost and addresses
+  std::vector<Network> trusted_proxies;    // whose X-Forwarded- fields count
   int threads = 0;                         // of the tile pool; 0: one a hardware thread
   int max_queue = 256;                     // renders that wait for their start
+  int max_wait_s = 40;                     // longest silence of a request that waits; proxies give up after 50 or 60
   int max_sessions = 64;
   int64_t scene_cache_mb = 1024;  // compiled scenes kept for reuse
   int64_t results_mb = 512;       // finished images kept
   int max_results = 1000;
-  int64_t films_mb = 1024;  // films of done renders kept to be refined: one of 3840x2160, nine of 1280x720
-  int film_keep_s = 300;    // for so long
+  int64_t pictures_mb = 64;  // pictures of stored scenes kept, for caches that ask again by other headers
+  int64_t films_mb = 1024;   // films of done renders kept to be refined: one of 3840x2160, nine of 1280x720
+  int film_keep_s = 300;     // for so long
   std::string log_level = "info";
   LogFormat log_format = LogFormat::automatic;
   Limits limits;

@@ -137,10 +137,17 @@ class SchemaWriter {
     schema["additionalProperties"] = false;
     json exclusions = json::array();
     for (const auto& keys : record.exclusive) {
-      for (size_t i = 1; i < keys.size(); ++i) exclusions.push_back({{"not", {{"required", {keys[0], keys[i]}}}}});
+      for (size_t i = 1; i < keys.size(); ++i) exclusions.push_back({{"not", both_schema(keys[0], keys[i])}});
     }
     if (!exclusions.empty()) schema["allOf"] = std::move(exclusions);
     return schema;
+  }
+
+  // Has both members, which it names as its own: linters take a required name that is no property for a misspelt one.
+  static json both_schema(std::string_view a, std::string_view b) {
+    json properties = json::object();
+    for (const std::string_view key : {a, b}) properties[std::string(key)] = json::object();
+    return {{"properties", std::move(properties)}, {"required", {a, b}}};
   }
 
   json field_schema(const Field& field) {

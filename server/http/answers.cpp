@@ -45,8 +45,11 @@ int WaitSlots::free() const {
 
 ::tl::expected<CompiledPtr, Problem> wait_compiled(Services& services, const Request& request, const ScenePtr& scene,
                                                    Priority priority) {
-  if (auto compiled = services.compiled.wait(scene, priority, request.gone)) return compiled;
+  const auto until = after_ms(services.config.max_wait_s * 1000.0);
+  const auto compiled = services.compiled.wait(scene, priority, request.gone, until);
+  if (compiled && *compiled) return *compiled;
   if (request.gone.stop_requested()) return client_gone();
+  if (!compiled) return busy("compiling", "the scene is still being compiled; ask again for what has come of it", 5);
   return problem(500, "internal", "the scene could not be compiled");
 }
 
@@ -55,9 +58,29 @@ std::optional<int64_t> number_param(const Request& request, const std::string& n
   return text ? whole_number<int64_t>(*text) : std::nullopt;
 }
 
-double wait_seconds(const Request& request, double default_s) {
-  constexpr double kMostS = 60.0;
-  return std::min(read_preferences(request).wait_s.value_or(default_s), kMostS);
+double wait_seconds(const Services& services, const Request& request, double default_s) {
+  return std::min<double>(read_preferences(request).wait_s.value_or(default_s), services.config.max_wait_s);
+}
+
+namespace {
+
+// "wait=40", or nothing where the client asked for no wait.
+std::string granted_wait(const Services& services, const Request& request) {
+  if (!read_preferences(request).wait_s) return {};
+  return "wait=" + std::to_string(static_cast<int>(wait_seconds(services, request, 0.0)));
+}
+
+// Of a 202, where respond-async counts too.
+void tell_preferences(const Services& services, const Request& request, Response& response) {
+  std::string applied = granted_wait(services, request);
+  if (read_preferences(request).respond_async) applied = "respond-async" + (applied.empty() ? "" : ", " + applied);
+  if (!applied.empty()) response.with("Preference-Applied", applied);
+}
+
+}  // namespace
+
+void tell_wait(const Services& services, const Request& request, Response& response) {
+  if (const std::string wait = granted_wait(services, request); !wait.empty()) response.with("Preference-Applied", wait);
 }
 
 ::tl::unexpected<Problem> refused(Services& services, const Error& error) {
@@ -127,20 +150,15 @@ Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFo
   return response;
 }
 
-Response accepted_response(const JobRecord& record, const Request& request) {
-  Response response = json_response(202, job_json(record));
+Response accepted_response(const Services& services, const JobRecord& record, const Request& request) {
+  Response response = json_response(202, job_json(record, request.prefix));
   const double eta_s = record.status.progress.eta_ms / 1000.0;
   const int retry_s = std::clamp(static_cast<int>(std::ceil(eta_s)), 1, 30);
-  response.with("Location", "/v1/renders/" + record.id)
+  response.with("Location", location_of(request, "/v1/renders/" + record.id))
       .with("Retry-After", std::to_string(retry_s))
       .with("Vary", "Accept, Prefer")
       .with("Cache-Control", "no-store");
-  const Preferences preferences = read_preferences(request);
-  std::string applied = preferences.respond_async ? "respond-async" : "";
-  if (preferences.wait_s) {
-    applied += (applied.empty() ? "wait=" : ", wait=") + std::to_string(static_cast<int>(wait_seconds(request, 0.0)));
-  }
-  if (!applied.empty()) response.with("Preference-Applied", applied);
+  tell_preferences(services, request, response);
   return response;
 }
 

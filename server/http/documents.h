@@ -11,11 +11,13 @@
 
 namespace tilelight::server {
 
-std::string job_json(const JobRecord& record);
+// prefix: of our paths as the client sees them.
+std::string job_json(const JobRecord& record, std::string_view prefix);
 // image_hash: empty where it is not known.
 std::string report_document(const JobRecord& record, const std::string& image_hash,
                             const std::optional<double>& rounding = {});
-std::string jobs_json(const std::vector<JobRecord>& records);  // {"renders": [...]}, without plans and reports
+// {"renders": [...]}, without plans and reports.
+std::string jobs_json(const std::vector<JobRecord>& records, std::string_view prefix);
 // The data of events, each on one line.
 std::string state_document(const WorkStatus& status);
 std::string progress_document(const RenderProgress& progress);
@@ -28,6 +30,8 @@ std::string plan_document(std::string_view scene_id, const std::vector<SceneWarn
 std::string session_document(std::string_view id, std::string_view scene_id, const std::vector<SceneWarning>& warnings,
                              const ViewPlan& plan);
 std::string limits_document(const Config& config);
+// The description of the API with the scene language in it, so that it needs no other document.
+std::string openapi_document(const Config& config, std::string_view prefix);
 std::string version_document(int threads);
 
 }  // namespace tilelight::server

@@ -49,7 +49,7 @@ Json timings_json(const Timings& t) {
           {"plan_ms", t.plan_ms},   {"render_ms", t.render_ms}, {"encode_ms", t.encode_ms}};
 }
 
-Json brief_json(const JobRecord& record) {
+Json brief_json(const JobRecord& record, std::string_view prefix) {
   const WorkStatus& status = record.status;
   Json out = {{"id", record.id},
               {"state", job_state_name(status.state)},
@@ -63,7 +63,7 @@ Json brief_json(const JobRecord& record) {
               {"finished_at", time_or_null(status.finished_ms)},
               {"progress", progress_json(status.progress)}};
   const bool has_image = status.state == JobState::done && !record.result_expired;
-  out["image_url"] = has_image ? Json("/v1/renders/" + record.id + "/image") : Json(nullptr);
+  out["image_url"] = has_image ? Json(std::string(prefix) + "/v1/renders/" + record.id + "/image") : Json(nullptr);
   if (!status.error.empty()) out["error"] = {{"detail", status.error}};
   return out;
 }
@@ -76,9 +76,9 @@ std::string report_document(const JobRecord& record, const std::string& image_ha
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
-std::string job_json(const JobRecord& record) {
+std::string job_json(const JobRecord& record, std::string_view prefix) {
   const WorkStatus& status = record.status;
-  Json out = brief_json(record);
+  Json out = brief_json(record, prefix);
   out["timings"] = timings_json(status.timings);
   out["warnings"] = warnings_json(record.warnings, status.plan ? &*status.plan : nullptr);
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
@@ -87,9 +87,9 @@ std::string job_json(const JobRecord& record) {
   return text_of(out);
 }
 
-std::string jobs_json(const std::vector<JobRecord>& records) {
+std::string jobs_json(const std::vector<JobRecord>& records, std::string_view prefix) {
   Json list = Json::array();
-  for (const JobRecord& record : records) list.push_back(brief_json(record));
+  for (const JobRecord& record : records) list.push_back(brief_json(record, prefix));
   return text_of({{"renders", std::move(list)}});
 }
 
@@ -170,7 +170,7 @@ std::string limits_document(const Config& config) {
   Json out = Json::parse(limits_json(config.limits));
   out["server"] = {{"max_queue", config.max_queue},     {"max_sessions", config.max_sessions},
                    {"max_results", config.max_results}, {"films_mb", config.films_mb},
-                   {"film_keep_s", config.film_keep_s}, {"max_wait_s", 60},
+                   {"film_keep_s", config.film_keep_s}, {"max_wait_s", config.max_wait_s},
                    {"max_streams", config.max_streams}};
   return text_of(out);
 }

@@ -1,32 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/guard.h"
 
-#include <arpa/inet.h>
-
 #include <algorithm>
 
+#include "server/http/origin.h"
 #include "server/http/text.h"
 
 namespace tilelight::server {
 namespace {
 
-// "localhost:8080" -> "localhost", "[::1]:80" -> "::1".
-std::string host_name(std::string_view host) {
-  if (!host.empty() && host.front() == '[') return std::string(host.substr(1, host.find(']') - 1));
-  return std::string(host.substr(0, host.rfind(':')));
-}
+std::string quoted(std::string_view text) { return "'" + std::string(text.substr(0, 100)) + "'"; }
 
-bool is_address(const std::string& name) {
-  unsigned char out[sizeof(in6_addr)];
-  return inet_pton(AF_INET, name.c_str(), out) == 1 || inet_pton(AF_INET6, name.c_str(), out) == 1;
+std::string_view without_dot(std::string_view name) {
+  return name.substr(0, name.size() - (!name.empty() && name.back() == '.'));  // "localhost." is localhost
 }
 
 // A rebinding attack needs a name that the attacker's DNS answers: addresses and localhost are safe from it.
-bool is_own_host(std::string_view host, const Config& config) {
-  const std::string name = host_name(host);
-  if (is_same_name(name, "localhost") || is_address(name) || is_same_name(name, config.host)) return true;
+bool is_own_name(std::string_view name, const Config& config) {
+  name = without_dot(name);
+  if (name == "localhost" || parse_address(name) || is_same_name(name, config.host)) return true;
   return std::any_of(config.allowed_hosts.begin(), config.allowed_hosts.end(),
                      [&](const std::string& allowed) { return is_same_name(name, allowed); });
+}
+
+::tl::expected<void, Problem> check_host(std::string_view host, const Config& config) {
+  if (host.empty()) return {};  // HTTP/1.0; no browser
+  const auto authority = parse_authority(host);
+  if (!authority) return problem(400, "bad_request", "the Host " + quoted(host) + " is not 'name' or 'name:port'");
+  if (is_own_name(authority->name, config)) return {};
+  return problem(
+      421, "misdirected",
+      "this server does not answer for the host " + quoted(host) + "; start it with --allowed-hosts to make it");
+}
+
+// What a browser says of the page that asks. Sec-Fetch-Site decides where it is there, whatever a proxy has made of
+// Host: no script can set it, and browsers send it to https and to loopback names alone, where a name that was bound
+// anew to our address fails at the certificate or at check_host. Browsers and addresses without it send Origin.
+// Who sends neither is no browser.
+::tl::expected<void, Problem> check_site(const Request& request) {
+  const auto [site, sites_end] = request.headers.equal_range("Sec-Fetch-Site");
+  const auto is_own_site = [](const auto& field) { return field.second == "same-origin" || field.second == "none"; };
+  if (site != sites_end) {
+    if (std::all_of(site, sites_end, is_own_site)) return {};
+    return problem(403, "cross_origin",
+                   "requests from pages of other sites are not accepted; the browser calls this one " +
+                       quoted(std::find_if_not(site, sites_end, is_own_site)->second));
+  }
+  const auto [origin, origins_end] = request.headers.equal_range("Origin");
+  const auto host = parse_authority(request.host);
+  const bool is_own_page = std::all_of(origin, origins_end, [&](const auto& field) {
+    return host && is_same_origin(field.second, *host, request.scheme);
+  });
+  if (is_own_page) return {};
+  return problem(403, "cross_origin",
+                 "requests from pages of other sites are not accepted; the page is of " + quoted(origin->second) +
+                     ", the request for the host " + quoted(request.host) +
+                     (request.scheme.empty() ? "" : " by " + request.scheme) +
+                     ". If that is one site behind a proxy, the proxy must hand on Host as the browser sent it");
 }
 
 bool is_json(std::string_view content_type) {
@@ -36,19 +66,13 @@ bool is_json(std::string_view content_type) {
 }  // namespace
 
 ::tl::expected<void, Problem> check_guard(const Request& request, const Config& config) {
-  const std::string_view host = request.header("Host").value_or("");
-  if (!host.empty() && !is_own_host(host, config)) {
-    return problem(421, "misdirected",
-                   "this server does not answer for the host '" + std::string(host.substr(0, 100)) +
-                       "'; start it with --allowed-hosts to make it");
+  // Both: a page may set X-Forwarded-Host, but not Host, on requests to its own name.
+  for (const std::string_view host : {request.header("Host").value_or(""), std::string_view(request.host)}) {
+    if (auto own = check_host(host, config); !own) return own;
   }
   const bool changes_state = request.method != "GET" && request.method != "OPTIONS";
   if (!changes_state) return {};
-  if (const auto origin = request.header("Origin")) {
-    const size_t scheme = origin->find("://");
-    const bool is_same = scheme != std::string_view::npos && is_same_name(origin->substr(scheme + 3), host);
-    if (!is_same) return problem(403, "cross_origin", "requests from pages of other sites are not accepted");
-  }
+  if (auto own = check_site(request); !own) return own;
   if (request.body.empty()) return {};
   const auto type = request.header("Content-Type");
   if (!type || !is_json(*type)) {

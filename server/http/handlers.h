@@ -56,15 +56,21 @@ constexpr double kImageWaitS = 30.0;
 // What a request is told whose client has closed its connection: for the log, since nobody reads it.
 ::tl::unexpected<Problem> client_gone();
 
-// The compiled scene, waited for. REQUIRES: a slot to wait in. Problems: client_gone, internal.
+// The compiled scene, waited for. REQUIRES: a slot to wait in. Problems: client_gone, compiling (it takes longer than a
+// request may wait; it goes on, so that a retry finds it), internal.
 ::tl::expected<CompiledPtr, Problem> wait_compiled(Services& services, const Request& request, const ScenePtr& scene,
                                                    Priority priority);
+
+// The location of one of our resources ("/v1/renders/...") as the client has to ask for it.
+inline std::string location_of(const Request& request, const std::string& path) { return request.prefix + path; }
 
 // A whole number from a query. Nothing: it is absent, or anything else.
 std::optional<int64_t> number_param(const Request& request, const std::string& name);
 
-// How long this request waits: Prefer: wait=N within [0, 60], else the default.
-double wait_seconds(const Request& request, double default_s);
+// How long this request waits: Prefer: wait=N, else the default, and at most --max-wait-s.
+double wait_seconds(const Services& services, const Request& request, double default_s);
+// Says in Preference-Applied which wait was granted, where the client asked for one.
+void tell_wait(const Services& services, const Request& request, Response& response);
 
 // What a refused submission becomes.
 ::tl::unexpected<Problem> refused(Services& services, const Error& error);
@@ -75,7 +81,7 @@ Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFo
 Response shared_image(const EncodedPtr& image, ImageFormat format);
 
 // 202 and the job that now holds the work.
-Response accepted_response(const JobRecord& record, const Request& request);
+Response accepted_response(const Services& services, const JobRecord& record, const Request& request);
 
 // A render that ended without an image as a problem: 503 where it was cancelled, 500 where it failed.
 ::tl::unexpected<Problem> ended_without_image(const WorkStatus& status);

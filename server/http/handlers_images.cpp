@@ -61,6 +61,30 @@ std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageForma
          "\"";
 }
 
+// What ?format= says; without it, what Accept likes best.
+::tl::expected<ImageFormat, Problem> scene_image_format(const Request& request, const View& view) {
+  const std::vector<ImageFormat> formats = image_formats(view);
+  const auto name = request.param("format");
+  if (!name) return image_format_for(request, formats, ImageFormat::png);
+  const auto named = find_image_format(*name);
+  if (named && std::find(formats.begin(), formats.end(), *named) != formats.end()) return *named;
+  SceneError error{"/format", "unknown_name", "found '" + std::string(name->substr(0, 40)) + "'; allowed:", {}, ""};
+  for (const ImageFormat format : formats) {
+    error.allowed.emplace_back(image_format_name(format));
+    error.detail += (error.allowed.size() > 1 ? ", " : " ") + error.allowed.back();
+  }
+  return scene_problem({SceneErrors::Kind::invalid, {std::move(error)}});
+}
+
+// The picture of a scene and a view is always the same, whoever asks, so any cache may keep it. An address that names
+// the format needs no Vary, which would make a cache keep a copy for every spelling of Accept that browsers have.
+// (Nobody needs a key to ask; a picture for holders of one would have to be private.)
+Response for_caches(Response response, const Request& request, const std::string& etag) {
+  response.with("ETag", etag).with("Cache-Control", "public, max-age=31536000, immutable");
+  if (!request.param("format")) response.with("Vary", "Accept");
+  return response;
+}
+
 }  // namespace
 
 Reply get_render_image(Services& services, const Request& request) {
@@ -106,39 +130,34 @@ Reply get_scene_image(Services& services, const Request& request) {
                    "this scene stops by time, so its picture has no name to be cached under; ask POST "
                    "/v1/renders for it");
   }
-  const auto format = image_format_for(request, image_formats(*view), ImageFormat::png);
+  const auto format = scene_image_format(request, *view);
   if (!format) return ::tl::unexpected(format.error());
   const std::string etag = scene_image_etag(scene, *view, *format);
-  const auto label = [&](Response& response) {
-    // Not to be used unasked: another version of this program may render it otherwise, under another tag.
-    response.with("ETag", etag).with("Cache-Control", "private, no-cache").with("Vary", "Accept");
-  };
   if (!is_match_met(request, {true, etag})) return ::tl::unexpected<Problem>(precondition_failed({true, etag}));
-  if (has_current(request, etag)) {
-    Response response = empty_response(304);
-    label(response);
-    return response;
+  if (has_current(request, etag)) return for_caches(empty_response(304), request, etag);
+  if (const auto kept = services.pictures.find(etag)) {
+    return for_caches(shared_image(kept->image, *format), request, etag).with("Render-Info", kept->render_info);
   }
   auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
   auto lease = services.queue.submit({scene, std::move(*view), *format, Priority::normal, scene->parsed.warnings, 0.0});
   if (!lease) return refused(services, lease.error());
   RenderWork& work = *lease->work();
-  if (!work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0))) {
+  if (!work.wait_end(request.gone, after_ms(wait_seconds(services, request, kImageWaitS) * 1000.0))) {
     if (request.gone.stop_requested()) return client_gone();
     const auto record = services.jobs.keep(std::move(*lease), request.client, *format);
     if (!record) return refused(services, record.error());
-    return accepted_response(*record, request);
+    return accepted_response(services, *record, request);
   }
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(*format, services.pool);
   if (!image) return problem(500, "internal", "the image could not be encoded");
   const WorkStatus status = work.status();
-  Response response = shared_image(*image, *format);
-  label(response);
-  response.with("Server-Timing", server_timing(status))
-      .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));
-  return response;
+  const std::string info = render_info(status.progress.spp, status.report.stop, status.report);
+  services.pictures.put(etag, {*image, info});
+  return for_caches(shared_image(*image, *format), request, etag)
+      .with("Server-Timing", server_timing(status))
+      .with("Render-Info", info);
 }
 
 }  // namespace tilelight::server

@@ -50,8 +50,8 @@ Reply get_page_file(Services&, const Request& request) {
       .with("Cross-Origin-Resource-Policy", "same-origin");
 }
 
-Reply get_openapi(Services&, const Request& request) {
-  return tagged(request, kOpenApiFile.etag, kOpenApiFile.media_type, kOpenApiFile.bytes);
+Reply get_openapi(Services& services, const Request& request) {
+  return tagged_json(request, openapi_document(services.config, request.prefix));
 }
 
 Reply get_limits(Services& services, const Request& request) {

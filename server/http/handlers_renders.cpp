@@ -89,12 +89,13 @@ Reply list_renders(Services& services, const Request& request) {
   auto records = services.jobs.list(filter);
   const bool has_more = static_cast<int>(records.size()) > limit;
   if (has_more) records.pop_back();
-  Response response = json_response(200, jobs_json(records));
+  Response response = json_response(200, jobs_json(records, request.prefix));
   response.with("Cache-Control", "no-store");
   if (has_more) {
     char cursor[32];
     std::snprintf(cursor, sizeof cursor, "%llx", static_cast<unsigned long long>(records.back().sequence));
-    std::string next = "</v1/renders?after=" + std::string(cursor) + "&limit=" + std::to_string(limit);
+    std::string next =
+        "<" + location_of(request, "/v1/renders?after=") + std::string(cursor) + "&limit=" + std::to_string(limit);
     if (filter.state) next += "&state=" + std::string(job_state_name(*filter.state));
     response.with("Link", next + ">; rel=\"next\"");
   }
@@ -107,7 +108,7 @@ Reply get_render(Services& services, const Request& request) {
   if (!record) return no_such_render();
   const auto etag = [&] { return render_etag(record->status); };
   if (!is_match_met(request, {true, etag()})) return ::tl::unexpected<Problem>(precondition_failed({true, etag()}));
-  const double wait_s = wait_seconds(request, 0.0);
+  const double wait_s = wait_seconds(services, request, 0.0);
   const WorkPtr work = services.jobs.work(id);
   // A client that says what it has waits for the next change of that; others for the next change from now.
   const bool is_up_to_date = !request.header("If-None-Match") || has_current(request, etag());
@@ -118,8 +119,10 @@ Reply get_render(Services& services, const Request& request) {
     record = services.jobs.find(id);
     if (!record) return no_such_render();
   }
-  Response response = has_current(request, etag()) ? empty_response(304) : json_response(200, job_json(*record));
+  Response response =
+      has_current(request, etag()) ? empty_response(304) : json_response(200, job_json(*record, request.prefix));
   response.with("ETag", etag()).with("Cache-Control", "no-cache").with("Server-Timing", server_timing(record->status));
+  tell_wait(services, request, response);
   return response;
 }
 

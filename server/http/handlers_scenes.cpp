@@ -33,7 +33,8 @@ Reply post_scene(Services& services, const Request& request) {
   const ParsedScene& parsed = (*scene)->parsed;
   const bool is_new = services.scenes.put(*scene);
   const std::string id = parsed.scene_id;
-  return json_response(is_new ? 201 : 200, scene_document(id, parsed.warnings)).with("Location", "/v1/scenes/" + id);
+  return json_response(is_new ? 201 : 200, scene_document(id, parsed.warnings))
+      .with("Location", location_of(request, "/v1/scenes/" + id));
 }
 
 Reply get_scene(Services& services, const Request& request) {

@@ -6,11 +6,18 @@
 namespace tilelight::server {
 namespace {
 
-constexpr double kFrameWaitS = 25.0;  // under the half minute after which proxies give up
+constexpr double kFrameWaitS = 25.0;  // under the half minute after which some proxies give up
 
 ::tl::unexpected<Problem> no_such_session() {
   return problem(404, "no_such_session",
                  "no session with this id is open; sessions end after five minutes without use");
+}
+
+// None came while this waited.
+Response no_frame(const Services& services, const Request& request) {
+  Response response = empty_response(204).with("Cache-Control", "no-store");
+  tell_wait(services, request, response);
+  return response;
 }
 
 }  // namespace
@@ -29,7 +36,7 @@ Reply post_session(Services& services, const Request& request) {
   if (!session) return busy(session.error().code, session.error().detail, 5);
   const std::string& id = (*session)->id();
   return json_response(201, session_document(id, body->scene->parsed.scene_id, body->warnings, plan))
-      .with("Location", "/v1/sessions/" + id)
+      .with("Location", location_of(request, "/v1/sessions/" + id))
       .with("Cache-Control", "no-store");
 }
 
@@ -60,9 +67,10 @@ Reply get_session_frame(Services& services, const Request& request) {
   if (!layer) return ::tl::unexpected(layer.error());
   auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const auto frame = session->wait_frame(*after, request.gone, after_ms(wait_seconds(request, kFrameWaitS) * 1000.0));
+  const auto until = after_ms(wait_seconds(services, request, kFrameWaitS) * 1000.0);
+  const auto frame = session->wait_frame(*after, request.gone, until);
   if (!frame && session->is_closed()) return problem(410, "session_closed", "the session was closed");
-  if (!frame) return empty_response(204).with("Cache-Control", "no-store");
+  if (!frame) return no_frame(services, request);
   if (!frame->image) {
     services.log.write(LogLevel::error, "render_failed",
                        {{"id", request.id}, {"session", session->id()}, {"cause", frame->error}});

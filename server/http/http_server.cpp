@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/http_server.h"
 
+#include "server/http/forwarded.h"
 #include "server/random_id.h"
 
 namespace tilelight::server {
@@ -21,6 +22,7 @@ Served serve(Services& services, const std::vector<Route>& routes, Exchange& exc
   const ResponseForm form{request.method == "HEAD", head.is_http_1_0, head.closes};
   request.body = exchange.body;
   request.client = exchange.client;
+  believe_proxies(request, services.config.trusted_proxies);
   request.id = random_hex(8);
   request.gone = exchange.gone.get_token();
   return write_response(dispatch(services, routes, std::move(request)), form);

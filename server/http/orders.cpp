@@ -29,7 +29,7 @@ struct Wish {
                                                                 RenderWork& work, ImageFormat format) {
   auto slot = services.waits.take(request.client);
   if (!slot) return ::tl::unexpected(slot.error());
-  const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(request, kImageWaitS) * 1000.0));
+  const bool has_ended = work.wait_end(request.gone, after_ms(wait_seconds(services, request, kImageWaitS) * 1000.0));
   if (request.gone.stop_requested()) return client_gone();
   if (!has_ended) return std::optional<Response>();
   if (work.state() != JobState::done) return ended_without_image(work.status());
@@ -37,6 +37,7 @@ struct Wish {
   if (!image) return problem(410, image.error().code, image.error().detail);
   Response response = image_response(work, *image, format);
   response.with("Cache-Control", "no-store");
+  tell_wait(services, request, response);
   return std::optional<Response>(std::move(response));
 }
 
@@ -68,7 +69,7 @@ using Claim = std::optional<IdempotencyKeys::Claim>;
   }
   const auto now = services.jobs.find(record->id);
   if (!now) return std::optional<Response>();  // deleted while this waited
-  return std::optional<Response>(accepted_response(*now, request));
+  return std::optional<Response>(accepted_response(services, *now, request));
 }
 
 // The record of the job that answers the request: a new one, or that of a retry that came meanwhile and was faster.
@@ -101,7 +102,7 @@ Reply submit_order(Services& services, const Request& request, const Claim& clai
   }
   const auto record = keep_job(services, std::move(*lease), request, claim, format);
   if (!record) return refused(services, record.error());
-  return accepted_response(*record, request);
+  return accepted_response(services, *record, request);
 }
 
 }  // namespace

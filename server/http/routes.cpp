@@ -10,9 +10,15 @@
 namespace tilelight::server {
 namespace {
 
-// What of a view may stand in the address of a picture; read_view_query.
+// What of a view may stand in the address of a plan; read_view_query.
 const std::vector<std::string> kViewQuery = {"position", "target", "up",       "fov_y_deg",
                                              "width",    "height", "exposure", "samples"};
+// The same of a picture, and its format.
+const std::vector<std::string> kImageQuery = [] {
+  std::vector<std::string> names = kViewQuery;
+  names.emplace_back("format");
+  return names;
+}();
 
 // Every route has its description in openapi.json; a test holds both together.
 const std::vector<Route> kApiRoutes = {
@@ -28,7 +34,7 @@ const std::vector<Route> kApiRoutes = {
     {"POST", "/v1/scenes", post_scene},
     {"GET", "/v1/scenes/{id}", get_scene},
     {"GET", "/v1/scenes/{id}/plan", get_scene_plan, kViewQuery},
-    {"GET", "/v1/scenes/{id}/image", get_scene_image, kViewQuery},
+    {"GET", "/v1/scenes/{id}/image", get_scene_image, kImageQuery},
     {"POST", "/v1/plan", post_plan},
     {"POST", "/v1/sessions", post_session},
     {"PUT", "/v1/sessions/{id}/view", put_session_view},

@@ -10,6 +10,7 @@
 #include "server/http/message.h"
 #include "server/jobs/idempotency.h"
 #include "server/jobs/jobs.h"
+#include "server/jobs/kept_pictures.h"
 #include "server/sessions/sessions.h"
 
 namespace tilelight::server {
@@ -55,6 +56,7 @@ struct Services {
   CompiledCache& compiled;
   JobQueue& queue;
   Jobs& jobs;
+  KeptPictures& pictures;
   Sessions& sessions;
   IdempotencyKeys& keys;
   WaitSlots& waits;

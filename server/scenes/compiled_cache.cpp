@@ -74,7 +74,8 @@ void CompiledCache::keep(const std::string& key, CompiledPtr compiled) {
   }
 }
 
-CompiledPtr CompiledCache::wait(ScenePtr scene, Priority priority, std::stop_token gone) {
+std::optional<CompiledPtr> CompiledCache::wait(ScenePtr scene, Priority priority, std::stop_token gone,
+                                               Steady::time_point until) {
   struct Slot {
     std::mutex mutex;
     std::condition_variable_any ready;
@@ -89,7 +90,7 @@ CompiledPtr CompiledCache::wait(ScenePtr scene, Priority priority, std::stop_tok
     slot->ready.notify_all();
   });
   std::unique_lock lock(slot->mutex);
-  slot->ready.wait(lock, gone, [&] { return slot->is_set; });
+  if (!slot->ready.wait_until(lock, gone, until, [&] { return slot->is_set; })) return std::nullopt;
   return slot->compiled;
 }
 

@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <unordered_map>
@@ -31,8 +32,9 @@ class CompiledCache : public std::enable_shared_from_this<CompiledCache> {
   using Then = std::function<void(CompiledPtr)>;
   void get(ScenePtr scene, Priority priority, Then then);
 
-  // The same for a thread that may wait; null also when `gone` was requested first.
-  CompiledPtr wait(ScenePtr scene, Priority priority, std::stop_token gone);
+  // The same for a thread that may wait. Nothing: `gone` was requested first or the time is over, and compiling goes
+  // on.
+  std::optional<CompiledPtr> wait(ScenePtr scene, Priority priority, std::stop_token gone, Steady::time_point until);
 
   int64_t bytes() const;
 

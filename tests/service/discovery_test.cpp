@@ -11,7 +11,7 @@ namespace {
 using Discovery = ServiceTest;
 
 TEST_F(Discovery, TheDescriptionOfTheApiHasExactlyTheRoutesOfTheTable) {
-  std::set<std::string> routes, described;
+  std::set<std::string> routes, described, ids;
   for (const server::Route& route : server::api_routes())
     routes.insert(std::string(route.method) + " " + std::string(route.pattern));
   const Json document = Json::parse(service_->get("/openapi.json").body);
@@ -22,6 +22,7 @@ TEST_F(Discovery, TheDescriptionOfTheApiHasExactlyTheRoutesOfTheTable) {
       for (char& c : upper) c = static_cast<char>(std::toupper(c));
       described.insert(upper + " " + path);
       EXPECT_TRUE(operation.contains("summary")) << method << " " << path;
+      EXPECT_TRUE(ids.insert(operation.at("operationId")).second) << method << " " << path;
     }
   }
   EXPECT_EQ(described, routes);
@@ -56,16 +57,13 @@ void collect_references(const Json& json, std::set<std::string>& out) {
   }
 }
 
-TEST_F(Discovery, EveryReferenceOfTheDescriptionLeadsSomewhere) {
+TEST_F(Discovery, EveryReferenceOfTheDescriptionLeadsIntoIt) {
   const Json document = Json::parse(service_->get("/openapi.json").body);
   std::set<std::string> references;
   collect_references(document, references);
   for (const std::string& reference : references) {
-    if (reference[0] == '#') {
-      EXPECT_TRUE(document.contains(Json::json_pointer(reference.substr(1)))) << reference;
-    } else {
-      EXPECT_EQ(service_->get(reference).status, 200) << reference;
-    }
+    ASSERT_EQ(reference[0], '#') << reference << " is not in the document itself";
+    EXPECT_TRUE(document.contains(Json::json_pointer(reference.substr(1)))) << reference;
   }
 }
 

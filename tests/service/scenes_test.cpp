@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes stored once, planned and pictured often.
+#include "server/jobs/kept_pictures.h"
+#include "server/jobs/render_work.h"
 #include "tests/service/service_fixture.h"
 
 namespace tilelight::service {
@@ -53,13 +55,60 @@ TEST_F(Scenes, APicturesTagIsKnownBeforeItIsRendered) {
   const auto picture = service_->get(path, {{"Accept", "image/avif,image/webp,image/png,*/*;q=0.8"}});
   ASSERT_EQ(picture.status, 200) << picture.body;
   EXPECT_EQ(png_size(picture.body), std::pair(40, 30));
-  EXPECT_NE(picture.header("cache-control").find("no-cache"), std::string::npos)
-      << "another version of the program may draw it otherwise";
+  EXPECT_EQ(picture.header("cache-control"), "public, max-age=31536000, immutable");
+  EXPECT_EQ(picture.header("vary"), "Accept");
   const double before = service_->app().metrics().value("tilelight_renders_total", "state=\"done\"");
-  EXPECT_EQ(service_->get(path, {{"If-None-Match", picture.header("etag")}}).status, 304);
+  for (const std::string& tags : {picture.header("etag"), "W/" + picture.header("etag"),
+                                  "\"a,b\", W/\"c\"," + picture.header("etag"), std::string("*")}) {
+    const auto same = service_->get(path, {{"If-None-Match", tags}});
+    EXPECT_EQ(same.status, 304) << tags;
+    EXPECT_EQ(same.header("etag"), picture.header("etag"));
+    EXPECT_EQ(same.header("cache-control"), picture.header("cache-control"));
+  }
   EXPECT_EQ(service_->app().metrics().value("tilelight_renders_total", "state=\"done\""), before)
       << "nothing was rendered";
   EXPECT_NE(service_->get(path + "&exposure=1").header("etag"), picture.header("etag"));
+}
+
+TEST_F(Scenes, AnAddressMayNameTheFormatAndThenAcceptIsNotLookedAt) {
+  const std::string id = store(*service_, small_scene(77));
+  const std::string path = "/v1/scenes/" + id + "/image?width=16&height=12&samples=1";
+  const auto jpeg = service_->get(path + "&format=jpeg", {{"Accept", "image/png"}});
+  ASSERT_EQ(jpeg.status, 200) << jpeg.body;
+  EXPECT_EQ(jpeg.header("content-type"), "image/jpeg");
+  EXPECT_EQ(jpeg.header("vary"), "") << "one copy for everybody";
+  const auto accepted = service_->get(path, {{"Accept", "image/jpeg"}});
+  EXPECT_EQ(accepted.body, jpeg.body);
+  EXPECT_EQ(accepted.header("etag"), jpeg.header("etag"));
+  EXPECT_NE(service_->get(path).header("etag"), jpeg.header("etag"));
+  for (const char* format : {"svg", "gif", "", "png&format=png"}) {
+    const auto refused = service_->get(path + "&format=" + format);
+    EXPECT_EQ(refused.status, 422) << format;
+    EXPECT_EQ(Json::parse(refused.body).at("errors").at(0).at("pointer"), "/format") << format;
+    EXPECT_EQ(refused.header("cache-control"), "no-store");
+  }
+}
+
+TEST_F(Scenes, APictureIsRenderedOnceHoweverOftenItIsAskedForWhileThereIsRoom) {
+  Service own;
+  const auto renders = [&] { return own.app().metrics().value("tilelight_renders_total", "state=\"done\""); };
+  const std::string path = "/v1/scenes/" + store(own, small_scene()) + "/image";
+  const auto first = own.get(path);
+  for (const char* accept : {"*/*", "image/*", "image/avif,image/webp,image/*;q=0.8"}) {
+    const auto again = own.get(path, {{"Accept", accept}});
+    EXPECT_EQ(again.body, first.body);
+    EXPECT_EQ(again.header("render-info"), first.header("render-info"));
+  }
+  EXPECT_EQ(renders(), 1);
+  server::KeptPictures pictures(2000);
+  const auto picture = [](size_t bytes) { return server::KeptPicture{server::tagged(std::string(bytes, 'x')), ""}; };
+  for (const char* etag : {"a", "b"}) pictures.put(etag, picture(400));
+  EXPECT_TRUE(pictures.find("a")) << "used again";
+  pictures.put("c", picture(400));
+  EXPECT_FALSE(pictures.find("b")) << "the one that was not used for longest";
+  EXPECT_TRUE(pictures.find("a") && pictures.find("c"));
+  pictures.put("d", picture(4000));
+  EXPECT_FALSE(pictures.find("d")) << "larger than all the room";
 }
 
 TEST_F(Scenes, ABadQueryIs422WithAPointerIntoTheView) {

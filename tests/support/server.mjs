@@ -2,18 +2,18 @@
 // A tilelightd of its own on free ports, for tests that are written in JavaScript.
 import { spawn } from 'node:child_process';
 
-// Starts the server with further `flags`; {url, port, output(), isAlive(), stop()}. The promise fails with the
+// Starts the server with further `flags`; {url, port, adminPort, output(), isAlive(), stop()}. The promise fails with the
 // server's output where it ends before it listens.
 export async function startServer(flags = []) {
   const server = spawn(process.env.TILELIGHTD, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0',
     '--data-dir', ':memory:', ...flags], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((resolve) => server.once('exit', resolve));
   let output = '';
-  const url = await new Promise((resolve, reject) => {
+  const [url, adminPort] = await new Promise((resolve, reject) => {
     const read = (text) => {
       output += text;
-      const announced = /^Tilelight is at (\S+)\/$/m.exec(output);
-      if (announced) resolve(announced[1]);
+      const announced = /^Tilelight is at (\S+)\/\nHealth and metrics are at \S+:(\d+)\//m.exec(output);
+      if (announced) resolve([announced[1], Number(announced[2])]);
     };
     server.stdout.on('data', read);
     server.stderr.on('data', read);
@@ -22,6 +22,7 @@ export async function startServer(flags = []) {
   return {
     url,
     port: Number(new URL(url).port),
+    adminPort,
     output: () => output,
     isAlive: () => server.exitCode === null && server.signalCode === null,
     stop: async () => {

@@ -22,10 +22,11 @@ const Order kRenderer = {{"base", {}},           {"scene", {"base"}},          {
                          {"shade", {"compile"}}, {"trace", {"shade", "film"}}, {"raster", {"trace"}},
                          {"render", {"raster"}}, {"measure", {"render"}},      {"renderer", {"measure"}},
                          {"study", {"measure"}}, {"check", {"measure"}},       {"cli", {"check", "renderer", "study"}}};
-const Order kServer = {{"clock", {}},
+const Order kServer = {{"address", {}},
+                       {"clock", {}},
                        {"process", {}},
                        {"random_id", {}},
-                       {"config", {}},
+                       {"config", {"address"}},
                        {"log", {"clock"}},
                        {"metrics", {"clock"}},
                        {"scenes", {"config", "log", "metrics", "random_id"}},

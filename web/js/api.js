@@ -4,6 +4,9 @@
 
 const kJson = { 'Content-Type': 'application/json' };
 
+// Where the server's paths begin, as the browser sees it: a proxy may have put them under one of its own.
+export const kBaseUrl = new URL('..', import.meta.url).href.replace(/\/$/, '');
+
 // What the server said was wrong (RFC 9457); `errors` has one entry a mistake in a scene.
 export class Problem extends Error {
   constructor(status, body, retryAfterS) {
@@ -32,7 +35,7 @@ async function received(part) {
 }
 
 async function call(path, options) {
-  const response = await received(fetch(path, options));
+  const response = await received(fetch(kBaseUrl + path, options));
   if (response.ok) return response;
   const body = await response.json().catch((error) => {
     if (error.name === 'AbortError') throw error;
@@ -107,7 +110,7 @@ export async function renderImage(document, format = 'image/png') {
   const headers = { ...kJson, Accept: format, Prefer: 'wait=60' };
   const response = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(document) });
   if (response.status !== 202) return blobOf(response);
-  const job = response.headers.get('Location');
+  const job = await jobOf(response);
   await finished(job);
   return imageOf(job, format);
 }
@@ -117,7 +120,7 @@ export async function renderStill(body, { format = 'image/png', signal } = {}) {
   const headers = { ...kJson, Prefer: 'respond-async' };
   // Not called off half way: nobody would know the name of the job, and so could take it back.
   const accepted = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(body) });
-  const job = accepted.headers.get('Location');
+  const job = await jobOf(accepted);
   try {
     const { report } = await finished(job, signal);
     return { blob: await imageOf(job, format, signal), report };
@@ -125,6 +128,9 @@ export async function renderStill(body, { format = 'image/png', signal } = {}) {
     call(job, { method: 'DELETE', keepalive: true }).catch(() => {});  // the server forgets it by itself, later
   }
 }
+
+// The path of the job that the server answered with. Not its Location, which not every proxy rewrites.
+const jobOf = async (accepted) => `/v1/renders/${(await jsonOf(accepted)).id}`;
 
 // The status of a job when it is done.
 async function finished(job, signal) {

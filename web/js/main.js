@@ -225,7 +225,7 @@ async function copyLink() {
 }
 
 function copyCurl() {
-  return copy(curlCommand(location.origin, stillDocument(shown.text, viewer.still)), 'curl command');
+  return copy(curlCommand(api.kBaseUrl, stillDocument(shown.text, viewer.still)), 'curl command');
 }
 
 // Opens what the address asks for. If there is no such thing, the first scene comes as it is, and a word that it did.

@@ -14,9 +14,9 @@ export function stillDocument(sceneText, { camera, image, rule = null, method = 
 
 // A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
 // changes nothing; no line of JSON can be its end mark.
-export function curlCommand(origin, document) {
+export function curlCommand(baseUrl, document) {
   return [
-    `curl --silent --show-error --fail '${origin}/v1/renders' \\`,
+    `curl --silent --show-error --fail '${baseUrl}/v1/renders' \\`,
     "  --header 'Content-Type: application/json' --header 'Accept: image/png' --header 'Prefer: wait=60' \\",
     "  --output tilelight.png --data-binary @- <<'SCENE'",
     JSON.stringify(document),

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/kept_pictures.h"
+
+namespace tilelight::server {
+
+std::optional<KeptPicture> KeptPictures::find(const std::string& etag) {
+  const std::lock_guard lock(mutex_);
+  const auto known = by_etag_.find(etag);
+  if (known == by_etag_.end()) return std::nullopt;
+  recent_.splice(recent_.begin(), recent_, known->second);
+  return known->second->second;
+}
+
+void KeptPictures::put(const std::string& etag, KeptPicture picture) {
+  std::list<Entry> dropped;  // freed where no lock is held
+  const std::lock_guard lock(mutex_);
+  if (by_etag_.contains(etag)) return;
+  recent_.emplace_front(etag, std::move(picture));
+  by_etag_[etag] = recent_.begin();
+  bytes_ += bytes_of(recent_.front());
+  while (bytes_ > max_bytes_) {
+    bytes_ -= bytes_of(recent_.back());
+    by_etag_.erase(recent_.back().first);
+    dropped.splice(dropped.begin(), recent_, std::prev(recent_.end()));
+  }
+}
+
+}  // namespace tilelight::server
