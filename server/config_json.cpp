@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "server/config.h"
@@ -11,7 +12,10 @@ Result<std::map<std::string, std::string>> read_config_file(const std::string& p
   if (!in) return fail("no_file", path + ": cannot be read");
   std::map<std::string, std::string> out;
   try {
-    const auto document = nlohmann::json::parse(in);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    // The library takes it for the end of the text.
+    if (text.find('\0') != std::string::npos) return fail("not_json", path + ": found U+0000, which no JSON text has");
+    const auto document = nlohmann::json::parse(text);
     if (!document.is_object()) return fail("wrong_type", path + ": expected one JSON object");
     for (const auto& [key, value] : document.items()) {
       if (value.is_string()) {

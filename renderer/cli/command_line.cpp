@@ -8,6 +8,7 @@
 #include <string>
 
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/scene/words.h"
 
 namespace tilelight::cli {
@@ -160,7 +161,11 @@ void add_chess(CLI::App& app, Run& run) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("chess", "Render a chess position");
-  command->add_option("fen", options->fen, "The position, FEN, or its placement field alone")->required();
+  command
+      ->add_option("fen", options->fen,
+                   "The position: a FEN, or its placement field alone; what programs write around it is left out, with "
+                   "a warning")
+      ->required();
   CLI::Option* output = add_output_options(*command, options->render);
   command->add_option("--detail", options->detail, "Segments around the axis of a man")
       ->capture_default_str()
@@ -173,12 +178,11 @@ void add_chess(CLI::App& app, Run& run) {
   command->callback([options, output, scene, &run] {
     if (output->count() + scene->count() == 0) throw CLI::RequiredError("--output or --scene");
     run = [options] {
-      if (const auto position = parse_fen(options->fen); !position) {
-        std::fprintf(stderr, "tilelight: %s\n", position.error().c_str());
-        return kBadInput;
-      }
+      const auto position = parse_fen(options->fen);
+      if (!position) return complain(kBadInput, position.error());
       const std::string text = chess_scene_json(options->fen, options->detail);
       if (!options->scene) return run_render({"<chess>", text}, options->render);
+      for (const std::string& sentence : position->left_out) complain(kOk, "warning: " + sentence);
       std::fputs(text.c_str(), stdout);
       return kOk;
     };

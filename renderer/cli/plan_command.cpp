@@ -109,7 +109,8 @@ ExitCode run_plan(const SceneText& source, const PlanArguments& arguments) {
   std::ostringstream out;
   const CostPrediction cost = predict_cost(compiled, plan, pool);
   if (arguments.json) {
-    out << R"({"predicted":)" << cost_json(cost) << R"(,"plan":)" << plan_json(plan.plan) << "}\n";
+    out << R"({"predicted":)" << cost_json(cost) << R"(,"warnings":)"
+        << warnings_json(document.warnings, plan.plan.warnings) << R"(,"plan":)" << plan_json(plan.plan) << "}\n";
   } else {
     print_scene(out, plan.plan);
     print_view(out, plan, !document.view.camera, cost, pool.thread_count());

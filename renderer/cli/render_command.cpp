@@ -75,7 +75,7 @@ ExitCode write_results(const Render& render, const ParsedScene& parsed, const Co
   }
   if (arguments.report.empty()) return kOk;
   const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id, image_hash(*render.image()),
-                                find_rounding(parsed.scene, compiled, plan)};
+                                find_rounding(parsed.scene, compiled, plan), parsed.warnings};
   const std::string report = report_json(render.report(), plan.plan, identity) + "\n";
   if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
   return kOk;

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "renderer/base/characters.h"
 #include "renderer/cli/files.h"
 
 namespace tilelight::cli {
@@ -40,7 +41,7 @@ std::string errors_text(const std::string& name, const std::vector<SceneError>& 
   for (const SceneError& error : errors) {
     text += name;
     if (error.line > 0) text += ":" + std::to_string(error.line) + ":" + std::to_string(error.column);
-    text += ": " + (error.pointer.empty() ? "" : error.pointer + ": ") + error.detail;
+    text += ": " + (error.pointer.empty() ? "" : visible_text(error.pointer) + ": ") + error.detail;
     if (!error.hint.empty()) text += " (" + error.hint + ")";
     text += "\n";
   }
@@ -49,7 +50,7 @@ std::string errors_text(const std::string& name, const std::vector<SceneError>& 
 
 void print_warnings(const std::string& name, const std::vector<SceneWarning>& warnings) {
   for (const SceneWarning& warning : warnings) {
-    const std::string where = warning.pointer.empty() ? "" : warning.pointer + ": ";
+    const std::string where = warning.pointer.empty() ? "" : visible_text(warning.pointer) + ": ";
     std::fprintf(stderr, "%s: warning: %s%s\n", name.c_str(), where.c_str(), warning.detail.c_str());
   }
 }

@@ -5,34 +5,15 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/base/safe_length.h"
+#include "renderer/scene/camera_up.h"
 
 namespace tilelight {
-namespace {
-
-Vec3 least_aligned_axis(const Vec3& forward) {
-  int axis = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(forward[i]) < std::abs(forward[axis])) axis = i;
-  }
-  Vec3 up(0.0);
-  up[axis] = 1.0;
-  return up;
-}
-
-}  // namespace
-
-bool is_up_along_view(const Camera& camera) {
-  const Vec3 forward = safe_normalize(camera.target - camera.position);
-  return !(glm::length(glm::cross(forward, safe_normalize(camera.up))) > kUpAlongViewSine);
-}
-
 Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, double units) {
   Eye eye;
   eye.projection = camera.projection;
   eye.origin = (camera.position - center) / units;
   eye.forward = safe_normalize(camera.target - camera.position);
-  const Vec3 up_hint = is_up_along_view(camera) ? least_aligned_axis(eye.forward) : safe_normalize(camera.up);
-  const Vec3 right = safe_normalize(glm::cross(eye.forward, up_hint));
+  const Vec3 right = safe_normalize(glm::cross(eye.forward, usable_up(camera)));
   const Vec3 up = glm::cross(right, eye.forward);
 
   const bool is_perspective = camera.projection == Projection::perspective;

@@ -33,8 +33,7 @@ inline EyeRay eye_ray(const Eye& eye, double x, double y) {
   return {origin, glm::normalize(eye.forward + across)};
 }
 
-// center, units: of the normalised space. An up vector along the view falls back to the world axis least aligned with
-// it.
+// center, units: of the normalised space. Up is as usable_up has it.
 Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, double units);
 
 // Lets the rays of an eye that is far from the bodies, which lie in [-1, 1], start just before these instead. At 1e12
@@ -42,8 +41,5 @@ Eye make_eye(const Camera& camera, int width, int height, const Vec3& center, do
 // target, and from there on a ray is exact. Leaves the eye as it is where one of the planes (a, b, c, d:
 // ax + by + cz + d = 0) lies between. target: normalised. width, height: pixels.
 void start_near_bodies(Eye& eye, const Vec3& target, int width, int height, std::span<const Vec4> planes);
-
-// REQUIRES: camera.position != camera.target.
-bool is_up_along_view(const Camera& camera);
 
 }  // namespace tilelight

@@ -84,7 +84,7 @@ struct Plan {
   std::string kernel;   // the variant's name, e.g. "mirrors+shadows"
   std::string isa;      // instruction set the kernel is dispatched to, e.g. "AVX3"
   std::vector<LeftOut> left_out;
-  std::vector<SceneWarning> warnings;  // what only compiling finds
+  std::vector<SceneWarning> warnings;  // what only compiling and planning find
   int64_t bodies = 0, triangles_stored = 0, triangles_instanced = 0, lights = 0;
   int64_t memory_bytes = 0;               // of the compiled scene
   Vec3 bounds_min{0.0}, bounds_max{0.0};  // of the finite bodies, scene units
@@ -94,5 +94,8 @@ struct Plan {
 
 // The plan as a JSON object.
 std::string plan_json(const Plan& plan);
+
+// What reading the document found, then what compiling and planning found, as a JSON array.
+std::string warnings_json(const std::vector<SceneWarning>& read, const std::vector<SceneWarning>& planned);
 
 }  // namespace tilelight

@@ -38,4 +38,14 @@ std::string plan_json(const Plan& plan) {
   return out.dump();
 }
 
+std::string warnings_json(const std::vector<SceneWarning>& read, const std::vector<SceneWarning>& planned) {
+  using Json = nlohmann::ordered_json;
+  Json out = Json::array();
+  for (const auto* found : {&read, &planned}) {
+    for (const SceneWarning& w : *found)
+      out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
+  }
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace tilelight

@@ -11,6 +11,7 @@
 #include "renderer/compile/reach.h"
 #include "renderer/compile/stopwatch.h"
 #include "renderer/compile/tessellate.h"
+#include "renderer/scene/camera_up.h"
 #include "renderer/scene/words.h"
 
 namespace tilelight {
@@ -41,6 +42,16 @@ void leave_out_bodies(const CompiledScene& scene, const Reach& reach, std::vecto
   for (size_t i = 0; i < scene.bodies.size() && count <= kMostNames; ++i) {
     if (!reach.casts[i]) left_out.push_back({"body " + scene.bodies[i].name, "it lies " + why});
   }
+}
+
+SceneWarning up_warning(const Camera& camera) {
+  const Vec3 up = usable_up(camera);
+  return {"/camera", "up_parallel_to_view",
+          std::string("up is parallel to the view; ") +
+              (up.y > 0.0   ? "+y"
+               : up.z > 0.0 ? "+z"
+                            : "-z") +
+              " takes its place"};
 }
 
 class ViewPlanner {
@@ -80,6 +91,7 @@ class ViewPlanner {
     const ImageSpec& image = out_.view.image;
     out_.camera = out_.view.camera ? *out_.view.camera : framed_camera(scene_, image.width, image.height);
     out_.view.camera = out_.camera;
+    if (is_up_along_view(out_.camera)) out_.plan.warnings.push_back(up_warning(out_.camera));
     out_.eye = make_eye(out_.camera, image.width, image.height, scene_.center, scene_.units);
     std::vector<Vec4> planes;
     for (size_t i = scene_.finite_bodies; i < scene_.bodies.size(); ++i)

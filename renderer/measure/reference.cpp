@@ -11,6 +11,7 @@
 #include "renderer/measure/reference_bounce.h"
 #include "renderer/measure/reference_light.h"
 #include "renderer/measure/reference_media.h"
+#include "renderer/scene/camera_up.h"
 #include "renderer/trace/pixel_filter.h"
 
 namespace tilelight {
@@ -45,11 +46,12 @@ Vec3 unit(const Vec3& v) {  // also of vectors whose squares would underflow
   return glm::normalize(v / std::max({a.x, a.y, a.z}));
 }
 
-// Up parallel to the view says nothing: then the world axis least aligned with the view (x before y before z) is up.
-Vec3 usable_up(const Vec3& up, const Vec3& forward) {
+// Up parallel to the view says nothing: then +y is up and, where the view is vertical, what puts +x on the right.
+Vec3 up_in_picture(const Vec3& up, const Vec3& forward) {
+  const Vec3 y(0, 1, 0);
   if (glm::length(glm::cross(forward, unit(up))) > kUpAlongViewSine) return unit(up);
-  const Vec3 a = glm::abs(forward);
-  return a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0) : a.y <= a.z ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
+  if (glm::length(glm::cross(forward, y)) > kUpAlongViewSine) return y;
+  return glm::cross(Vec3(1, 0, 0), forward);
 }
 
 Line eye_line(const ReferenceEye& eye, const Vec2& p) {
@@ -221,7 +223,7 @@ ReferenceEye make_reference_eye(const ReferenceScene& scene, const View& view, c
   ReferenceEye eye;
   eye.position = camera.position;
   eye.forward = unit(camera.target - camera.position);
-  const Vec3 right = glm::normalize(glm::cross(eye.forward, usable_up(camera.up, eye.forward)));
+  const Vec3 right = glm::normalize(glm::cross(eye.forward, up_in_picture(camera.up, eye.forward)));
   const Vec3 up = glm::cross(right, eye.forward);
   eye.is_perspective = camera.projection == Projection::perspective;
   const double plane_height =

@@ -116,7 +116,8 @@ class Render {
 // What the render cannot know of itself. Empty: not known, null in the report.
 struct ReportIdentity {
   std::string version, scene_id, image_hash;
-  std::optional<double> rounding = {};  // as find_rounding has it
+  std::optional<double> rounding = {};      // as find_rounding has it
+  std::vector<SceneWarning> warnings = {};  // of reading the scene; the plan has its own
 };
 // SHA-256 of the linear image: floats as they lie in memory, little-endian, RGB, row by row.
 std::string image_hash(const Image& image);

@@ -65,6 +65,7 @@ std::string report_json(const RenderReport& report, const Plan& plan, const Repo
       {"components", has_points ? components_json(report.points.back(), identity.rounding) : Json(nullptr)},
       {"efficiency", has_points ? efficiency_json(report.points.back()) : Json(nullptr)},
       {"stiffness", Json::parse(plan_json(plan)).at("stiffness")},
+      {"warnings", Json::parse(warnings_json(identity.warnings, plan.warnings))},
       {"image_hash", text_or_null(identity.image_hash)},
       {"version", text_or_null(identity.version)},
       {"scene_sha256", text_or_null(identity.scene_id)},

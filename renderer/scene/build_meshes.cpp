@@ -70,15 +70,15 @@ void build_mesh(Value entry, bool usable, MeshTable& table, Problems& problems) 
   const Value normals = find_accepted(entry, "normals");
   bool visible = true;
   if (usable && !entry.is_rejected() && positions && indices &&
-      check_indices(indices, positions.size() / 3, problems)) {
+      check_indices(indices, positions.numbers().size() / 3, problems)) {
     mesh.positions = read_vectors(positions);
     mesh.indices.assign(indices.numbers().begin(), indices.numbers().end());
     mesh.normals = read_vectors(normals);
     mesh.crease_deg = read_number(entry, "crease_deg", mesh.crease_deg);
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
       problems.add(normals, {"wrong_length",
-                             "found " + std::to_string(normals.size()) + " numbers; allowed: " +
-                                 std::to_string(positions.size()) + ", as many as positions, or none",
+                             "found " + std::to_string(normals.numbers().size()) + " numbers; allowed: " +
+                                 std::to_string(positions.numbers().size()) + ", as many as positions, or none",
                              {},
                              ""});
     }
@@ -100,7 +100,7 @@ MeshTable build_meshes(Value meshes, const Limits& limits, Problems& problems) {
   for (const Value entry : meshes.children()) {
     if (is_free_key(entry.key())) continue;
     const Value indices = find_accepted(entry, "indices");
-    triangles += indices ? static_cast<int64_t>(indices.size() / 3) : 0;
+    triangles += indices ? static_cast<int64_t>(indices.numbers().size() / 3) : 0;
     const bool fits = triangles <= limits.mesh_triangles;
     if (!fits && !reported) {
       problems.add(entry, {"limit",

@@ -128,7 +128,8 @@ class ObjectBuilder {
     auto parsed = parse_fen(fen ? fen.text() : kStartingPosition);
     ChessPositionShape shape;
     if (parsed) {
-      shape = *parsed;
+      shape.squares = parsed->squares;
+      for (std::string& sentence : parsed->left_out) problems_.warn(fen, "fen_left_out", std::move(sentence));
     } else {
       problems_.add(fen, {"bad_fen", parsed.error(), {}, "as in \"" + std::string(kStartingPosition) + "\""});
     }

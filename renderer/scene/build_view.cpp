@@ -11,9 +11,6 @@ namespace {
 
 constexpr int kDefaultSamples = 16;
 
-// `v` scaled so that its squares stay in range. REQUIRES: v is not zero.
-Vec3 moderate(const Vec3& v) { return v / std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
-
 Camera build_camera(Value value, Problems& problems) {
   Camera camera;
   camera.projection = read_word(value, "type", kProjections, camera.projection);
@@ -30,11 +27,6 @@ Camera build_camera(Value value, Problems& problems) {
                                           "found position equal to target; allowed: two different points",
                                           {},
                                           value.find("target") ? "" : "target is the origin unless it is given"});
-  } else if (is_sound("up")) {
-    const Vec3 view = moderate(camera.target - camera.position);
-    if (glm::length(glm::cross(glm::normalize(view), glm::normalize(moderate(camera.up)))) <= kUpAlongViewSine) {
-      problems.warn(value, "up_parallel_to_view", "up is parallel to the view; another axis takes its place");
-    }
   }
   return camera;
 }

@@ -81,13 +81,18 @@ class Writer {
     });
   }
 
+  // Numbers in a row and in rows of three mean the same.
   void write_array(Value array) {
-    tag(array.is_packed() ? Tag::numbers : Tag::array);
-    integer(array.size());
     if (array.is_packed()) {
-      bytes_.reserve(bytes_.size() + 8 * array.size());
-      for (const double x : array.numbers()) number(x);
+      const auto numbers = array.numbers();
+      tag(Tag::numbers);
+      integer(numbers.size());
+      bytes_.reserve(bytes_.size() + 8 * numbers.size());
+      for (const double x : numbers) number(x);
+      return;
     }
+    tag(Tag::array);
+    integer(array.size());
     for (const Value element : array.children()) write(element);
   }
 

@@ -188,11 +188,11 @@ class GrammarCheck {
                    std::move(hint)});
   }
 
-  // Returns false, after a complaint, if the number of entries is not allowed.
-  bool check_length(Value value, const Length& length, const std::string& noun) {
-    const auto size = static_cast<int64_t>(value.size());
-    if (size >= length.min && size <= length.max && size % length.step == 0) return true;
-    const bool over_limit = length.is_limit && size > length.max;
+  // Returns false, after a complaint, if `size` is not allowed.
+  bool check_length(Value value, size_t size, const Length& length, const std::string& noun) {
+    const auto count = static_cast<int64_t>(size);
+    if (count >= length.min && count <= length.max && count % length.step == 0) return true;
+    const bool over_limit = length.is_limit && count > length.max;
     refuse(value, {over_limit ? "limit" : "wrong_length",
                    "found " + describe_found(value) + "; allowed: " + describe_length(length, noun),
                    {},
@@ -201,22 +201,39 @@ class GrammarCheck {
   }
 
   void check_numbers(Value value, const Rule& rule) {
-    if (value.is_packed()) {
-      check_packed(value, rule.range);
+    if (!value.is_packed() || (value.has_rows() && !rule.or_rows)) {
+      check_entries_of_numbers(value, rule);
+      if (rule.or_rows) return;  // lists have been found among its entries, so that their number says nothing
     } else {
-      int errors = 0;
-      for (const Value element : value.children()) {
-        if (element.is(JsonKind::number) && is_in_range(element.number(), rule.range)) continue;
-        check(element, {.form = Form::number, .range = rule.range});
-        value.reject();
-        if (++errors == kMaxErrorsInList) break;
-      }
+      check_packed(value, rule.range);
     }
-    if (!check_length(value, rule.length, "numbers") || value.is_rejected()) return;
+    const size_t size = value.is_packed() && rule.or_rows ? value.numbers().size() : value.size();
+    if (!check_length(value, size, rule.length, "numbers") || value.is_rejected()) return;
     const auto numbers = value.numbers();
     if (rule.nonzero_vector && std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == 0.0; })) {
       refuse(value, {"out_of_range", "found a zero vector; allowed: " + describe_allowed(rule), {}, ""});
     }
+  }
+
+  // Of an array that holds something else than it may: each entry must be as the first one, if that may be in it.
+  void check_entries_of_numbers(Value value, const Rule& rule) {
+    value.reject();
+    if (value.has_rows()) return refuse_rows(value, describe_range(rule.range));
+    const bool by_rows = rule.or_rows && (*value.children().begin()).is(JsonKind::array);
+    const int64_t each = Document::kRowNumbers;
+    const Rule entry_rule = by_rows ? Rule{.form = Form::numbers, .range = rule.range, .length = {each, each}}
+                                    : Rule{.form = Form::number, .range = rule.range};
+    int errors = 0;
+    for (const Value entry : value.children()) {
+      check(entry, entry_rule);
+      if (entry.is_rejected() && ++errors == kMaxErrorsInList) break;
+    }
+  }
+
+  // Each row of a packed array where there may be none.
+  void refuse_rows(Value value, const std::string& allowed) {
+    for (size_t i = 0; i < std::min<size_t>(value.size(), kMaxErrorsInList); ++i)
+      problems_.add_row(value, i, {"wrong_type", "found a list of 3 numbers; allowed: " + allowed, {}, ""});
   }
 
   void check_packed(Value value, const Range& range) {
@@ -231,8 +248,11 @@ class GrammarCheck {
   }
 
   void check_list(Value value, const Rule& rule) {
-    if (!check_length(value, rule.length, "entries")) return;
-    if (value.is_packed() && value.size() > 0) {
+    if (!check_length(value, value.size(), rule.length, "entries")) return;
+    if (value.has_rows()) {
+      value.reject();
+      refuse_rows(value, describe_allowed(rule.options[0]));
+    } else if (value.is_packed() && value.size() > 0) {
       value.reject();
       for (size_t i = 0; i < std::min<size_t>(value.size(), kMaxErrorsInList); ++i) {
         problems_.add_element(
@@ -247,7 +267,7 @@ class GrammarCheck {
   }
 
   void check_map(Value value, const Rule& rule) {
-    if (!check_length(value, rule.length, "entries")) return;
+    if (!check_length(value, value.size(), rule.length, "entries")) return;
     for (const Value entry : value.children()) {
       if (!is_free_key(entry.key())) check(entry, rule.options[0]);
     }

@@ -40,7 +40,8 @@ std::string describe_allowed(const Rule& rule) {
       return describe_range(rule.range);
     case Form::numbers: {
       const std::string each = rule.range.max < kMaxMagnitude ? ", each " + describe_range(rule.range) : "";
-      return describe_length(rule.length, "numbers") + (rule.nonzero_vector ? ", not all 0" : "") + each;
+      return describe_length(rule.length, "numbers") + (rule.or_rows ? " (or lists of 3)" : "") +
+             (rule.nonzero_vector ? ", not all 0" : "") + each;
     }
     case Form::text:
       return "a string";

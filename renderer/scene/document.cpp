@@ -2,6 +2,7 @@
 #include "renderer/scene/document.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tilelight {
 
@@ -16,7 +17,8 @@ std::vector<Value> Document::duplicates() {
 std::string_view Value::text() const { return std::string_view(document_->chars_).substr(node().begin, node().size); }
 
 std::span<const double> Value::numbers() const {
-  return std::span(document_->numbers_).subspan(node().begin, node().size);
+  const size_t each = node().has_rows ? Document::kRowNumbers : 1;
+  return std::span(document_->numbers_).subspan(node().begin, each * node().size);
 }
 
 std::string_view Value::key() const {
@@ -41,6 +43,8 @@ std::string Value::pointer() const {
     const Value parent(document_, node.parent);
     if (parent.is(JsonKind::object)) {
       pointer = pointer_token(Value(document_, index).key()) + pointer;
+    } else if (parent.is_packed()) {  // an array that is still open, and perhaps its next row
+      pointer.insert(0, pointer_token(std::to_string(parent.size())));
     } else {
       size_t place = 0;
       for (uint32_t i = parent.node().begin; i != index; i = document_->nodes_[i].next) ++place;
@@ -49,6 +53,12 @@ std::string Value::pointer() const {
     index = node.parent;
   }
   return pointer;
+}
+
+std::string Value::number_pointer(size_t index) const {
+  if (!has_rows()) return pointer() + "/" + std::to_string(index);
+  return pointer() + "/" + std::to_string(index / Document::kRowNumbers) + "/" +
+         std::to_string(index % Document::kRowNumbers);
 }
 
 std::string pointer_token(std::string_view key) {
@@ -66,20 +76,31 @@ std::string pointer_token(std::string_view key) {
 }
 
 bool DocumentBuilder::open(JsonKind array_or_object) {
-  if (!link_new_node()) return false;
+  const bool is_maybe_row = array_or_object == JsonKind::array && may_hold_rows();
+  if (!add_node(array_or_object)) return false;
   const auto index = static_cast<uint32_t>(document_.nodes_.size() - 1);
+  if (!is_maybe_row && !link(index)) return false;
   Document::Node& node = document_.nodes_[index];
-  node.kind = array_or_object;
+  node.parent = open_.empty() ? 0 : open_.back().node;
   node.packed = array_or_object == JsonKind::array;
   node.begin = node.packed ? static_cast<uint32_t>(document_.numbers_.size()) : 0;
-  open_.push_back({index, 0});
+  open_.push_back({index, 0, is_maybe_row});
   return true;
 }
 
-void DocumentBuilder::close() {
-  const uint32_t index = open_.back().node;
+bool DocumentBuilder::close() {
+  const Open closed = open_.back();
   open_.pop_back();
-  if (document_.nodes_[index].kind == JsonKind::object) find_duplicates(index);
+  const Document::Node& node = document_.nodes_[closed.node];
+  if (node.kind == JsonKind::object) find_duplicates(closed.node);
+  if (!closed.is_maybe_row) return true;
+  if (!node.packed || node.has_rows || node.size != Document::kRowNumbers) return link(closed.node);
+  // A row: the last node, for it has none inside, and its numbers follow those of the rows before it.
+  document_.nodes_.pop_back();
+  Document::Node& array = document_.nodes_[open_.back().node];
+  array.has_rows = true;
+  ++array.size;
+  return true;
 }
 
 void DocumentBuilder::key(std::string_view key) {
@@ -91,18 +112,21 @@ void DocumentBuilder::key(std::string_view key) {
 bool DocumentBuilder::add(JsonKind null_or_boolean, bool value) {
   if (!add_node(null_or_boolean)) return false;
   document_.nodes_.back().number = value ? 1.0 : 0.0;
-  return true;
+  return link_last();
 }
 
 bool DocumentBuilder::add_number(double value) {
-  if (!open_.empty() && document_.nodes_[open_.back().node].packed) {
-    document_.numbers_.push_back(value);
-    ++document_.nodes_[open_.back().node].size;
-    return true;
+  if (!open_.empty()) {
+    Document::Node& parent = document_.nodes_[open_.back().node];
+    if (parent.packed && !parent.has_rows) {
+      document_.numbers_.push_back(value);
+      ++parent.size;
+      return true;
+    }
   }
   if (!add_node(JsonKind::number)) return false;
   document_.nodes_.back().number = value;
-  return true;
+  return link_last();
 }
 
 bool DocumentBuilder::add_text(std::string_view text) {
@@ -111,24 +135,28 @@ bool DocumentBuilder::add_text(std::string_view text) {
   node.begin = static_cast<uint32_t>(document_.chars_.size());
   node.size = static_cast<uint32_t>(text.size());
   document_.chars_ += text;
-  return true;
+  return link_last();
+}
+
+// Whether the innermost open container is an array of rows so far, or empty.
+bool DocumentBuilder::may_hold_rows() const {
+  if (open_.empty()) return false;
+  const Document::Node& node = document_.nodes_[open_.back().node];
+  return node.packed && (node.has_rows || node.size == 0);
 }
 
 bool DocumentBuilder::add_node(JsonKind kind) {
-  if (!link_new_node()) return false;
-  document_.nodes_.back().kind = kind;
+  if (document_.nodes_.size() >= max_values_) return false;
+  document_.nodes_.emplace_back().kind = kind;
   return true;
 }
 
-// Appends a node as the next child of the innermost open container.
-bool DocumentBuilder::link_new_node() {
-  if (!open_.empty() && document_.nodes_[open_.back().node].packed && !unpack()) return false;
-  if (document_.nodes_.size() >= max_values_) return false;
-  const auto index = static_cast<uint32_t>(document_.nodes_.size());
-  document_.nodes_.emplace_back();
+// Makes a node the next child of the innermost open container.
+bool DocumentBuilder::link(uint32_t index) {
   if (open_.empty()) return true;
-  auto& [parent, last_child] = open_.back();
-  Document::Node& node = document_.nodes_.back();
+  if (!unpack()) return false;
+  auto& [parent, last_child, is_maybe_row] = open_.back();
+  Document::Node& node = document_.nodes_[index];
   node.parent = parent;
   node.key_begin = key_begin_;
   node.key_size = key_size_;
@@ -138,15 +166,31 @@ bool DocumentBuilder::link_new_node() {
   return true;
 }
 
-// An array that began with numbers holds something else: its numbers become nodes. They are the last in numbers_, for
-// nothing inside a packed array can have added others.
+// The innermost open array began with numbers, or with rows of them, and holds something else: they become nodes.
 bool DocumentBuilder::unpack() {
   Document::Node& array = document_.nodes_[open_.back().node];
-  const std::vector<double> numbers(document_.numbers_.begin() + array.begin, document_.numbers_.end());
-  document_.numbers_.resize(array.begin);
-  array.packed = false;
+  if (!array.packed) return true;
+  const auto [begin, size, had_rows] = std::tuple(array.begin, array.size, array.has_rows);
+  array.packed = array.has_rows = false;
   array.begin = array.size = 0;
-  return std::all_of(numbers.begin(), numbers.end(), [this](double number) { return add_number(number); });
+  if (had_rows) return unpack_rows(begin, size);
+  for (uint32_t i = 0; i < size; ++i) {
+    if (!add_number(document_.numbers_[begin + i])) return false;
+  }
+  return true;
+}
+
+// Their numbers stay where they are.
+bool DocumentBuilder::unpack_rows(uint32_t begin, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!add_node(JsonKind::array)) return false;
+    Document::Node& row = document_.nodes_.back();
+    row.packed = true;
+    row.begin = begin + i * Document::kRowNumbers;
+    row.size = Document::kRowNumbers;
+    if (!link_last()) return false;
+  }
+  return true;
 }
 
 void DocumentBuilder::find_duplicates(uint32_t object) {

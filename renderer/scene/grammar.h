@@ -52,9 +52,11 @@ struct Record;
 struct Rule {
   Form form = Form::boolean;
   Range range{};                // number; every entry of numbers
-  Length length{};              // numbers, list, map
+  Length length{};              // numbers, list, map; of a text what its own parser holds it to, in characters
   bool nonzero_vector = false;  // numbers: not all may be zero
+  bool or_rows = false;         // numbers: also as a list of rows of Document::kRowNumbers
   bool tag_optional = false;    // tagged: without "type" it is the first record
+  std::string_view pattern{};   // text: ECMA-262, of what its own parser accepts; may accept more
   std::vector<std::string_view> words{};
   std::vector<Rule> options{};
   std::vector<std::shared_ptr<const Record>> records{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chapters of the language on objects and meshes.
+#include "renderer/scene/fen.h"
 #include "renderer/scene/grammar_rules.h"
 
 namespace tilelight {
@@ -62,8 +63,11 @@ std::shared_ptr<const Record> chess_position_record(const std::shared_ptr<const 
     set.fields.push_back({role.name, material_rule(material), "Material of this part",
                           "A name under `materials`, or a material. Absent: the set's own."});
   }
+  const Rule fen{.form = Form::text, .length = {.max = kMostFenCharacters}, .pattern = fen_pattern()};
   return object_record("chess_position", "A board with men",
-                       {{"fen", text_rule(), "Position", "A FEN, or its placement field alone.",
+                       {{"fen", fen, "Position",
+                         "A FEN as programs write it, or its placement field alone. What stands on no square (pockets, "
+                         "EPD operations, a variant's name, ...) is left out with a warning.",
                          "\"rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR\""},
                         detail_field(),
                         {"materials", record_rule(std::move(set)), "Materials of the set"}});
@@ -118,12 +122,13 @@ Rule meshes_grammar(const Limits& limits) {
   const Record mesh{
       "mesh_data",
       "Triangles with shared vertices",
-      {{"positions", numbers_rule(kAnyNumber, {3, 3 * corners, 3, true}), "Positions",
-        "x, y, z of every vertex, scene units.", "", Need::required},
-       {"indices", numbers_rule({.min = 0.0, .max = kLargestIndex, .whole = true}, {3, corners, 3, true}), "Indices",
-        "Three vertices of every triangle, counter-clockwise from outside.", "", Need::required},
-       {"normals", numbers_rule(kAnyNumber, {0, 3 * corners, 3, true}), "Normals",
-        "x, y, z for every vertex. Absent: averaged from the faces."},
+      {{"positions", threes_rule(kAnyNumber, {3, 3 * corners, 3, true}), "Positions",
+        "x, y, z of every vertex, scene units: numbers in a row, or a list of three for each.", "", Need::required},
+       {"indices", threes_rule({.min = 0.0, .max = kLargestIndex, .whole = true}, {3, corners, 3, true}), "Indices",
+        "Three vertices of every triangle, counter-clockwise from outside; written as positions are.", "",
+        Need::required},
+       {"normals", threes_rule(kAnyNumber, {0, 3 * corners, 3, true}), "Normals",
+        "x, y, z for every vertex, written as positions are. Absent: averaged from the faces."},
        {"crease_deg", number_rule({.min = 0.0, .max = 180.0}), "Crease angle",
         "Degrees; edges sharper than this stay sharp. Only where normals are absent.", "30"},
        {"name", text_rule(), "Name", "For people; the image does not depend on it."},

@@ -24,6 +24,9 @@ inline Rule whole_rule(double min, double max, bool is_limit = false) {
 inline Rule numbers_rule(Range range, Length length) {
   return {.form = Form::numbers, .range = range, .length = length};
 }
+inline Rule threes_rule(Range range, Length length) {
+  return {.form = Form::numbers, .range = range, .length = length, .or_rows = true};
+}
 inline Rule vector_rule() {
   Rule rule = numbers_rule(kAnyNumber, {3, 3});
   rule.shared_name = "vector";

@@ -6,13 +6,16 @@ namespace tilelight {
 namespace {
 
 std::shared_ptr<const Record> camera_record(std::string_view name, std::string_view title, Field lens) {
-  return std::make_shared<const Record>(
-      Record{name,
-             title,
-             {{"position", vector_rule(), "Eye", "Scene units.", "", Need::required},
-              {"target", vector_rule(), "What it looks at", "Scene units.", "[0, 0, 0]"},
-              {"up", direction_rule(), "Up", "Need not be at right angles to the view.", "[0, 1, 0]"},
-              std::move(lens)}});
+  return std::make_shared<const Record>(Record{
+      name,
+      title,
+      {{"position", vector_rule(), "Eye", "Scene units.", "", Need::required},
+       {"target", vector_rule(), "What it looks at", "Scene units.", "[0, 0, 0]"},
+       {"up", direction_rule(), "Up",
+        "Need not be at right angles to the view. Along it, +y takes its place; straight up or down, +x is on the "
+        "right.",
+        "[0, 1, 0]"},
+       std::move(lens)}});
 }
 
 }  // namespace

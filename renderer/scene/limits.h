@@ -6,6 +6,9 @@
 
 namespace tilelight {
 
+// Of the text that holds a chess position: for a game's tags and moves around it.
+inline constexpr int64_t kMostFenCharacters = 4'096;
+
 struct Limits {
   int64_t bytes = 16 << 20;  // of a scene document
   int json_depth = 64;

@@ -9,6 +9,7 @@ std::string limits_json(const Limits& limits) {
   const nlohmann::ordered_json out = {{"bytes", limits.bytes},
                                       {"json_depth", limits.json_depth},
                                       {"json_values", limits.json_values},
+                                      {"fen_characters", kMostFenCharacters},
                                       {"objects", limits.objects},
                                       {"lights", limits.lights},
                                       {"materials", limits.materials},

@@ -2,6 +2,7 @@
 // The scene language, version 1: JSON in, Scene and View out, or every error at once. Pure; any thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,16 @@ struct ParsedScene {
 // only in its meeting with `text`, has no line.
 ::tl::expected<View, SceneErrors> parse_view(std::string_view text, const View& base, const Limits& limits);
 
-// A chess position from a FEN, or from its placement field alone.
-::tl::expected<ChessPositionShape, std::string> parse_fen(std::string_view fen);
+// Why a text is no JSON, or more of it than the limits allow; nothing if it is well.
+std::optional<SceneErrors> find_json_errors(std::string_view text, const Limits& limits);
+
+// A chess position as programs write and people paste it: a FEN or its placement field alone, with white space,
+// labels, quotation marks or the tags of a game around it, with pockets, promoted marks, EPD operations or moves.
+struct FenPosition {
+  ChessSquares squares{};
+  std::vector<std::string> left_out;  // of the text, as sentences; what a FEN has beside the squares is not told
+};
+::tl::expected<FenPosition, std::string> parse_fen(std::string_view fen);
 
 // The scene that `tilelight chess` and the page's FEN field render: one chess position, a camera, two lights.
 std::string chess_scene_json(std::string_view fen, int detail);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "renderer/base/characters.h"
+
 namespace tilelight {
 namespace {
 
@@ -32,29 +34,11 @@ std::vector<std::string> split_pointer(std::string_view pointer) {
   return tokens;
 }
 
-void append_utf8(uint32_t code, std::string& out) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0 | code >> 6);
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xE0 | code >> 12);
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else {
-    out += static_cast<char>(0xF0 | code >> 18);
-    out += static_cast<char>(0x80 | (code >> 12 & 0x3F));
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  }
-}
-
 // The string whose JSON spelling, without quotes, is `raw`.
 std::string unescape(std::string_view raw) {
   constexpr std::string_view kLetters = "bfnrt", kMeanings = "\b\f\n\r\t";
   const auto code_at = [&](size_t i) {
-    return static_cast<uint32_t>(std::stoul(std::string(raw.substr(i, 4)), nullptr, 16));
+    return static_cast<char32_t>(std::stoul(std::string(raw.substr(i, 4)), nullptr, 16));
   };
   std::string out;
   for (size_t i = 0; i < raw.size(); ++i) {
@@ -64,7 +48,7 @@ std::string unescape(std::string_view raw) {
       const size_t letter = kLetters.find(raw[i]);
       out += letter == std::string_view::npos ? raw[i] : kMeanings[letter];
     } else {
-      uint32_t code = code_at(i + 1);
+      char32_t code = code_at(i + 1);
       i += 4;
       if (code >= 0xD800 && code < 0xDC00) {  // the first half of a surrogate pair
         code = 0x10000 + ((code - 0xD800) << 10) + (code_at(i + 3) - 0xDC00);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "renderer/base/characters.h"
 #include "renderer/scene/place.h"
 
 namespace tilelight {
@@ -48,10 +49,7 @@ SceneErrors Problems::take_errors(std::string_view text) {
 std::string in_quotes(std::string_view text) {
   size_t end = std::min(text.size(), kQuotedBytes);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  std::string quote(1, '"');
-  quote += text.substr(0, end);
-  quote += end < text.size() ? "...\"" : "\"";
-  return quote;
+  return "\"" + visible_text(text.substr(0, end)) + (end < text.size() ? "...\"" : "\"");
 }
 
 std::string number_text(double number) {
@@ -73,6 +71,7 @@ std::string describe_found(Value value) {
       return in_quotes(value.text()) + " (a string)";
     case JsonKind::array:
       if (value.size() == 0) return "an empty list";
+      if (value.has_rows()) return "a list of " + plural(value.size(), "list") + " of 3 numbers";
       return "a list of " + plural(value.size(), value.is_packed() ? "number" : "value");
     case JsonKind::object:
       return "an object of " + plural(value.size(), "member");

@@ -25,8 +25,12 @@ class Problems {
  public:
   void add(Value value, Complaint complaint) { add_at(value.pointer(), false, std::move(complaint)); }
   void add_key(Value member, Complaint complaint) { add_at(member.pointer(), true, std::move(complaint)); }
+  // index: among the numbers of a packed array.
   void add_element(Value array, size_t index, Complaint complaint) {
-    add_at(array.pointer() + "/" + std::to_string(index), false, std::move(complaint));
+    add_at(array.number_pointer(index), false, std::move(complaint));
+  }
+  void add_row(Value array, size_t row, Complaint complaint) {
+    add_at(array.pointer() + "/" + std::to_string(row), false, std::move(complaint));
   }
   void warn(Value value, std::string code, std::string detail);
 
@@ -49,7 +53,7 @@ class Problems {
   std::vector<SceneWarning> warnings_;
 };
 
-// `text` in quotes, shortened on a character's boundary so that a message stays a message.
+// `text` in quotes, shortened on a character's boundary so that a message stays a message, and as visible_text has it.
 std::string in_quotes(std::string_view text);
 
 // The shortest decimal that reads back as the same double.

@@ -25,7 +25,7 @@ std::string readable_message(std::string_view what) {
   if (colon != std::string_view::npos) what.remove_prefix(colon + 2);
   std::string message(what.substr(0, kMostBytes));
   for (char& c : message) {
-    if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+    if (static_cast<unsigned char>(c) >= 0x7F) c = '?';
   }
   return message;
 }
@@ -49,14 +49,8 @@ class Reader {
     builder_.key(key);
     return true;
   }
-  bool end_object() {
-    builder_.close();
-    return true;
-  }
-  bool end_array() {
-    builder_.close();
-    return true;
-  }
+  bool end_object() { return counted(builder_.close()); }
+  bool end_array() { return counted(builder_.close()); }
 
   bool parse_error(size_t position, const std::string& token, const json::exception& error) {
     const TextPlace place = place_of_offset(text_, position > 0 ? position - 1 : 0);
@@ -110,6 +104,11 @@ class Reader {
 
 }  // namespace
 
+std::optional<SceneErrors> find_json_errors(std::string_view text, const Limits& limits) {
+  auto document = read_document(text, limits);
+  return document ? std::nullopt : std::optional(std::move(document.error()));
+}
+
 ::tl::expected<Document, SceneErrors> read_document(std::string_view text, const Limits& limits) {
   // Nodes count bytes in 32 bits; no configuration may raise the limit beyond that.
   const auto most_bytes = std::min<uint64_t>(static_cast<uint64_t>(limits.bytes), std::numeric_limits<int32_t>::max());
@@ -121,6 +120,18 @@ class Reader {
                                                      std::to_string(most_bytes) + " (limit bytes)",
                                                  {},
                                                  ""}));
+  }
+  // The library takes it for the end of the text.
+  if (const size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    const TextPlace place = place_of_offset(text, nul);
+    return ::tl::unexpected(
+        one_error(SceneErrors::Kind::not_json, {"",
+                                                "not_json",
+                                                "found U+0000; no JSON text has it, also behind the document",
+                                                {},
+                                                "",
+                                                place.line,
+                                                place.column}));
   }
   Reader reader(text, limits);
   const bool accepted = json::sax_parse(text.begin(), text.end(), &reader);

@@ -12,8 +12,9 @@
 
 namespace tilelight {
 
-// Bytes, nesting and the number of values are held to the limits while reading. Numbers beyond the range of a double
-// and invalid UTF-8 are errors; equal names in one object are kept, as Document::duplicates.
+// Bytes, nesting and the number of values are held to the limits while reading. Numbers beyond the range of a double,
+// invalid UTF-8 and a NUL, even behind the document, are errors; equal names in one object are kept, as
+// Document::duplicates.
 ::tl::expected<Document, SceneErrors> read_document(std::string_view text, const Limits& limits);
 
 }  // namespace tilelight

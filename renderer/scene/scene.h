@@ -93,9 +93,10 @@ struct ChessMan {
   Side side;
   bool operator==(const ChessMan&) const = default;
 };
+// [rank][file], rank 0 = first rank, file 0 = a.
+using ChessSquares = std::array<std::array<std::optional<ChessMan>, 8>, 8>;
 struct ChessPositionShape {
-  // squares[rank][file], rank 0 = first rank, file 0 = a. A square is 1 unit; a1 is centred at (-3.5, 0, 3.5).
-  std::array<std::array<std::optional<ChessMan>, 8>, 8> squares{};
+  ChessSquares squares{};  // of 1 unit; a1 is centred at (-3.5, 0, 3.5)
   int detail = 48;
   std::array<MaterialId, kChessRoles> materials{};
   bool operator==(const ChessPositionShape&) const = default;
@@ -143,10 +144,6 @@ struct Camera {
   double height = 1.0;      // orthographic: scene units from the bottom to the top edge
   bool operator==(const Camera&) const = default;
 };
-// An up vector this near to the view (sine of the angle) says nothing: the world axis least aligned with the view, x
-// before y before z, takes its place.
-inline constexpr double kUpAlongViewSine = 1e-10;
-
 struct ImageSpec {
   int width = 1280, height = 720;  // pixels
   double exposure = 0.0;           // stops

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "renderer/scene/document.h"
 #include "renderer/scene/grammar.h"
 #include "renderer/scene/parse.h"
 
@@ -52,7 +53,7 @@ class SchemaWriter {
       case Form::numbers:
         return numbers_schema(rule);
       case Form::text:
-        return {{"type", "string"}};
+        return text_schema(rule);
       case Form::hex_color:
         return {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}, {"description", "sRGB, made linear"}};
       case Form::word:
@@ -85,10 +86,26 @@ class SchemaWriter {
     return schema;
   }
 
+  static json text_schema(const Rule& rule) {
+    json schema = {{"type", "string"}};
+    add_length(rule.length, "minLength", "maxLength", schema);
+    if (!rule.pattern.empty()) schema["pattern"] = rule.pattern;
+    return schema;
+  }
+
   static json numbers_schema(const Rule& rule) {
-    json schema = {{"type", "array"}, {"items", number_schema(rule.range)}};
-    add_length(rule.length, "minItems", "maxItems", schema);
-    if (rule.nonzero_vector) schema["not"] = {{"const", std::vector<int>(static_cast<size_t>(rule.length.max), 0)}};
+    json flat = list_of_numbers(rule.range, rule.length);
+    if (rule.nonzero_vector) flat["not"] = {{"const", std::vector<int>(static_cast<size_t>(rule.length.max), 0)}};
+    if (!rule.or_rows) return flat;
+    constexpr int64_t kEach = Document::kRowNumbers;
+    json rows = {{"type", "array"}, {"items", list_of_numbers(rule.range, {kEach, kEach})}};
+    add_length({rule.length.min / kEach, rule.length.max / kEach}, "minItems", "maxItems", rows);
+    return {{"anyOf", {std::move(flat), std::move(rows)}}};
+  }
+
+  static json list_of_numbers(const Range& range, const Length& length) {
+    json schema = {{"type", "array"}, {"items", number_schema(range)}};
+    add_length(length, "minItems", "maxItems", schema);
     return schema;
   }
 

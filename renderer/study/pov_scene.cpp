@@ -10,6 +10,7 @@
 
 #include "renderer/base/elementary.h"
 #include "renderer/compile/bodies.h"
+#include "renderer/scene/camera_up.h"
 
 namespace tilelight {
 namespace {
@@ -68,13 +69,13 @@ class Writer {
       add("camera { orthographic location ");
       add(camera_.position);
       add(" right -x*%.9g up y*%.9g sky ", camera_.height * aspect, camera_.height);
-      add(camera_.up);
+      add(usable_up(camera_));
     } else {
       const double half_width = elementary::tan(elementary::rad_from_deg(0.5 * camera_.fov_y_deg)) * aspect;
       add("camera { location ");
       add(camera_.position);
       add(" right -x*%.9g sky ", aspect);
-      add(camera_.up);
+      add(usable_up(camera_));
       add(" angle %.9g", 2.0 * elementary::atan2(half_width, 1.0) / elementary::rad_from_deg(1.0));
     }
     add(" look_at ");

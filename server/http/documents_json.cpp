@@ -16,14 +16,8 @@ Json time_or_null(int64_t wall_ms) { return wall_ms > 0 ? Json(rfc3339(wall_ms))
 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-// What reading found, then what compiling found.
-Json warnings_json(const std::vector<SceneWarning>& read, const Plan* plan = nullptr) {
-  std::vector<SceneWarning> warnings = read;
-  if (plan) warnings.insert(warnings.end(), plan->warnings.begin(), plan->warnings.end());
-  Json out = Json::array();
-  for (const SceneWarning& w : warnings)
-    out.push_back({{"pointer", w.pointer}, {"code", w.code}, {"detail", w.detail}});
-  return out;
+Json warnings_of(const std::vector<SceneWarning>& read, const Plan& plan = {}) {
+  return Json::parse(warnings_json(read, plan.warnings));
 }
 
 // As the scene language spells it, so that it can be sent back.
@@ -72,7 +66,7 @@ Json brief_json(const JobRecord& record, std::string_view prefix) {
 
 std::string report_document(const JobRecord& record, const std::string& image_hash,
                             const std::optional<double>& rounding) {
-  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding};
+  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding, record.warnings};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
@@ -80,7 +74,7 @@ std::string job_json(const JobRecord& record, std::string_view prefix) {
   const WorkStatus& status = record.status;
   Json out = brief_json(record, prefix);
   out["timings"] = timings_json(status.timings);
-  out["warnings"] = warnings_json(record.warnings, status.plan ? &*status.plan : nullptr);
+  out["warnings"] = warnings_of(record.warnings, status.plan.value_or(Plan{}));
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
   out["report"] = has_report ? Json::parse(report_document(record, "")) : Json(nullptr);
@@ -141,13 +135,13 @@ std::string report_csv(const RenderReport& report) {
 }
 
 std::string scene_document(std::string_view id, const std::vector<SceneWarning>& warnings) {
-  return text_of({{"id", id}, {"warnings", warnings_json(warnings)}});
+  return text_of({{"id", id}, {"warnings", warnings_of(warnings)}});
 }
 
 std::string plan_document(std::string_view scene_id, const std::vector<SceneWarning>& warnings, const ViewPlan& plan,
                           const CostPrediction& cost) {
   return text_of({{"scene", scene_id},
-                  {"warnings", warnings_json(warnings, &plan.plan)},
+                  {"warnings", warnings_of(warnings, plan.plan)},
                   {"predicted", Json::parse(cost_json(cost))},
                   {"plan", Json::parse(plan_json(plan.plan))},
                   {"camera", camera_json(plan.camera)}});
@@ -163,7 +157,7 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
                   {"view_seq", 0},
                   {"bounds", {{"min", vector_json(plan.plan.bounds_min)}, {"max", vector_json(plan.plan.bounds_max)}}},
                   {"plan", Json::parse(plan_json(plan.plan))},
-                  {"warnings", warnings_json(warnings, &plan.plan)}});
+                  {"warnings", warnings_of(warnings, plan.plan)}});
 }
 
 std::string limits_document(const Config& config) {

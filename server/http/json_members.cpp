@@ -2,6 +2,9 @@
 #include "server/http/json_members.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "server/http/text.h"
 
 namespace tilelight::server {
 namespace {
@@ -19,6 +22,10 @@ class Scanner {
   char peek() const { return at_end() ? '\0' : text_[at_]; }
   void skip_space() {
     while (!at_end() && is_space(text_[at_])) ++at_;
+  }
+  void skip_mark() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text_.substr(at_).starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
   }
   bool take(char c) {
     if (peek() != c) return false;
@@ -81,6 +88,7 @@ std::string blank(std::string_view text) {
 std::optional<std::vector<JsonMember>> scan_members(std::string_view text) {
   Scanner scan(text);
   std::vector<JsonMember> members;
+  scan.skip_mark();
   scan.skip_space();
   if (!scan.take('{')) return std::nullopt;
   scan.skip_space();
@@ -132,9 +140,27 @@ std::string keep_value(std::string_view text, const JsonMember& member) {
   return out;
 }
 
+std::string without_value(std::string_view text, const JsonMember& member) {
+  std::string out(text);
+  const size_t begin = member.end - member.value.size();
+  out.replace(begin, member.value.size(), blank(member.value));
+  out[begin] = '0';
+  return out;
+}
+
 const JsonMember* find_member(const std::vector<JsonMember>& members, std::string_view key) {
   const auto found = std::find_if(members.begin(), members.end(), [&](const JsonMember& m) { return m.key == key; });
   return found == members.end() ? nullptr : &*found;
+}
+
+std::optional<int64_t> json_whole_number(std::string_view value) {
+  if (const auto whole = whole_number<int64_t>(value)) return whole;
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool is_number = error == std::errc() && end == value.data() + value.size();
+  if (!is_number || std::floor(number) != number || std::abs(number) > kExact) return std::nullopt;
+  return static_cast<int64_t>(number);
 }
 
 std::optional<std::string_view> plain_string(std::string_view value) {

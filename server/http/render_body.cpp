@@ -144,6 +144,10 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
     out.warnings = out.scene->parsed.warnings;
     return out;
   }
+  // The scene's own parser reads it; the rest has to be JSON to the last byte too.
+  const bool is_inline = scene_member->value.front() == '{';
+  if (const auto broken = find_json_errors(is_inline ? without_value(body, *scene_member) : std::string(body), limits))
+    return scene_problem(*broken);
   std::vector<std::string> known = {"scene", "camera", "image", "render"};
   for (const std::string_view wish : wishes) known.emplace_back(wish);
   MemberErrors errors;
@@ -162,6 +166,15 @@ std::optional<Priority> find_batch_or_normal(std::string_view name) {
   check_format(out.format, out.view, errors);
   if (!errors.empty()) return errors.problem();
   return out;
+}
+
+// The members of a body that is one JSON object, of which every byte has been read.
+::tl::expected<std::vector<JsonMember>, Problem> read_members(std::string_view body, const Limits& limits) {
+  if (const auto broken = find_json_errors(body, limits)) return scene_problem(*broken);
+  if (auto members = scan_members(body)) return std::move(*members);
+  const auto view = parse_view(body, View{}, limits);  // says what it is in place of an object
+  return view ? problem(422, "wrong_type", "the body must be a JSON object of few members")
+              : scene_problem(view.error());
 }
 
 constexpr std::string_view kRules[] = {"samples", "rmse", "time_ms"};
@@ -244,11 +257,8 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
 ::tl::expected<RefineBody, Problem> read_refine_body(std::string_view body, const View& source,
                                                      const RenderReport& report, const Limits& limits) {
   const auto start = Steady::now();
-  const auto members = scan_members(body);
-  if (!members) {  // the parser of views says where it is broken
-    auto broken = parse_view(body, View{}, limits);
-    return broken ? problem(400, "not_json", "the body must be one JSON object") : scene_problem(broken.error());
-  }
+  const auto members = read_members(body, limits);
+  if (!members) return ::tl::unexpected(members.error());
   MemberErrors errors;
   errors.check_keys(*members, {"samples", "rmse", "time_ms", "format", "priority"});
   RefineBody out;
@@ -277,16 +287,13 @@ auto parse_where_it_fits(Services& services, std::string_view body, Parse parse)
 }
 
 ::tl::expected<ViewBody, Problem> read_view_body(std::string_view body, const View& base, const Limits& limits) {
-  const auto members = scan_members(body);
-  if (!members) {  // the parser of views says where it is broken
-    auto broken = parse_view(body, base, limits);
-    return broken ? problem(400, "not_json", "the body must be one JSON object") : scene_problem(broken.error());
-  }
+  const auto members = read_members(body, limits);
+  if (!members) return ::tl::unexpected(members.error());
   MemberErrors errors;
   errors.check_keys(*members, {"seq", "camera", "image", "render", "moving"});
   ViewBody out;
   const JsonMember* seq = find_member(*members, "seq");
-  out.seq = (seq ? whole_number<int64_t>(seq->value) : std::nullopt).value_or(0);
+  out.seq = (seq ? json_whole_number(seq->value) : std::nullopt).value_or(0);
   if (out.seq < 1) {
     errors.add("seq", seq ? "wrong_type" : "missing_key", "'seq' must be a whole number from 1, larger with each view");
   }

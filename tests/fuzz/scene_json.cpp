@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as a scene document, as overrides of a view, and as a FEN. Nothing crashes; every error says what and where,
-// and its pointer leads into the document; a document that is accepted means the same however it is spelled.
+// Bytes as a scene document, as overrides of a view, and as a chess position. Nothing crashes; every error says what
+// and where, and its pointer leads into the document; what is accepted means the same however it is spelled.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "renderer/base/characters.h"
 #include "renderer/scene/parse.h"
 #include "tests/fuzz/require.h"
 
@@ -78,6 +79,37 @@ void check_view(std::string_view text, const json& document, const Limits& limit
   REQUIRE(*again == *view, std::string(text));
 }
 
+// The placement field of these squares, as the standard spells it.
+std::string placement_of(const ChessSquares& squares) {
+  std::string out;
+  for (size_t rank = squares.size(); rank-- > 0;) {
+    for (const auto& man : squares[rank]) {
+      const char letter = man ? "prnbqk"[static_cast<size_t>(man->piece)] : '1';
+      out += man && man->side == Side::white ? static_cast<char>(letter - 'a' + 'A') : letter;
+    }
+    if (rank > 0) out += '/';
+  }
+  return out;
+}
+
+void check_fen(std::string_view text) {
+  const auto position = parse_fen(text);
+  if (!position) {
+    REQUIRE(!position.error().empty() && visible_text(position.error()) == position.error(), std::string(text));
+    return;
+  }
+  for (const std::string& sentence : position->left_out)
+    REQUIRE(!sentence.empty() && visible_text(sentence) == sentence, std::string(text));
+  const auto again = parse_fen(placement_of(position->squares));
+  REQUIRE(again && again->squares == position->squares && again->left_out.empty(), std::string(text));
+}
+
+// As the library reads it, but for a NUL, which it takes for the end.
+json read_plainly(std::string_view text) {
+  if (text.find('\0') != std::string_view::npos) return json(json::value_t::discarded);
+  return json::parse(text, nullptr, false);
+}
+
 }  // namespace
 }  // namespace tilelight::fuzz
 
@@ -87,9 +119,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Limits limits;
   limits.json_depth = 12;
   limits.json_values = 2000;
-  const auto document = nlohmann::json::parse(text, nullptr, false);
+  const auto document = fuzz::read_plainly(text);
   fuzz::check_scene(text, document, limits);
   fuzz::check_view(text, document, limits);
-  if (const auto position = parse_fen(text); !position) REQUIRE(!position.error().empty(), std::string(text));
+  fuzz::check_fen(text);
   return 0;
 }

@@ -247,16 +247,18 @@ TEST_F(Compile, TellsHowFarTheNumbersOfASceneLieApart) {
   EXPECT_NEAR(s.intensity_ratio, 24.0, 1e-12);
 }
 
-TEST_F(Compile, AnUpVectorAlongTheViewFallsBackToAnOrthonormalFrame) {
-  Camera camera;
-  camera.position = {0, 5, 0};
-  camera.up = {0, 1, 0};
-  EXPECT_TRUE(is_up_along_view(camera));
-  const Eye eye = make_eye(camera, 100, 100, Vec3(0.0), 1.0);
-  EXPECT_NEAR(glm::dot(glm::normalize(eye.step_x), glm::normalize(eye.step_y)), 0.0, 1e-12);
-  EXPECT_NEAR(glm::dot(glm::normalize(eye.step_x), eye.forward), 0.0, 1e-12);
-  camera.up = {1e-8, 1, 0};
-  EXPECT_FALSE(is_up_along_view(camera));
+TEST_F(Compile, AnUpVectorAlongTheViewIsToldInThePlanOfThatView) {
+  const auto compiled = compile_scene(one_sphere(), pool_);
+  View view;
+  view.camera = Camera{};
+  view.camera->position = {0, 5, 0};
+  const auto warnings_of = [&] { return plan_view(*compiled, view, "").plan.warnings; };
+  ASSERT_EQ(warnings_of().size(), 1u);
+  EXPECT_EQ(warnings_of()[0].pointer, "/camera");
+  EXPECT_EQ(warnings_of()[0].code, "up_parallel_to_view");
+  EXPECT_NE(warnings_of()[0].detail.find("-z takes its place"), std::string::npos);
+  view.camera->up = {1e-8, 1, 0};
+  EXPECT_TRUE(warnings_of().empty());
 }
 
 // From 1e12 radii away the rounding of the eye is 1e-4; between two pixels' rays lies 1e-6 all the same.

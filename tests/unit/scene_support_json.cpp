@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
 #include <set>
 #include <stdexcept>
 
+#include "renderer/base/characters.h"
 #include "scene_support.h"
 
 namespace tilelight::test {
@@ -161,6 +164,9 @@ std::vector<std::string> single_mutations(std::string_view document) {
 
 struct SchemaJudge::State {
   json schema;
+  mutable std::map<std::string, std::optional<std::wregex>> patterns;
+
+  static size_t length_of(const json& text) { return count_characters(text.get<std::string>()); }
 
   bool accepts(const json& rules, const json& value) const {
     for (const auto& [keyword, operand] : rules.items()) {
@@ -185,6 +191,8 @@ struct SchemaJudge::State {
     if (keyword == "exclusiveMaximum") return !value.is_number() || value < operand;
     if (keyword == "minItems") return !value.is_array() || value.size() >= operand.get<size_t>();
     if (keyword == "maxItems") return !value.is_array() || value.size() <= operand.get<size_t>();
+    if (keyword == "minLength") return !value.is_string() || length_of(value) >= operand.get<size_t>();
+    if (keyword == "maxLength") return !value.is_string() || length_of(value) <= operand.get<size_t>();
     if (keyword == "minProperties") return !value.is_object() || value.size() >= operand.get<size_t>();
     if (keyword == "maxProperties") return !value.is_object() || value.size() <= operand.get<size_t>();
     if (keyword == "pattern") return !value.is_string() || matches(operand, value);
@@ -242,11 +250,21 @@ struct SchemaJudge::State {
     return true;
   }
 
-  // Knows the one pattern that the schema uses.
-  static bool matches(const std::string& pattern, const std::string& text) {
-    if (pattern != "^#[0-9a-fA-F]{6}$") throw std::logic_error("no rule for the schema pattern " + pattern);
-    return text.size() == 7 && text[0] == '#' &&
-           std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+  // In wide characters, for patterns name code points. The text is what JSON holds: UTF-8.
+  bool matches(const std::string& pattern, const std::string& text) const {
+    auto& compiled = patterns[pattern];
+    if (!compiled) compiled = std::wregex(wide(pattern), std::regex::ECMAScript | std::regex::optimize);
+    return std::regex_search(wide(text), *compiled);
+  }
+
+  static std::wstring wide(const std::string& text) {
+    std::wstring out;
+    for (size_t at = 0; at < text.size();) {
+      const auto [code, bytes] = character_at(text, at);
+      out += static_cast<wchar_t>(code);
+      at += bytes;
+    }
+    return out;
   }
 
   static bool is_type(const std::string& type, const json& value) {

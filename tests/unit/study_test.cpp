@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/study/compare.h"
+#include "renderer/study/pov_scene.h"
 #include "renderer/study/statistics.h"
 #include "renderer/study/study.h"
 
@@ -27,6 +28,22 @@ TEST(PowerLaws, AreFoundExactlyAndWithTheirDoubt) {
   EXPECT_NEAR(loose->high, 12.706 * std::sqrt((2.0 / 3.0) / 2.0), 1e-9);
   EXPECT_FALSE(fit_power_law({{1.0, 1.0}, {2.0, 1.0}}));
   EXPECT_FALSE(fit_power_law({{1.0, 1.0}, {2.0, 0.0}, {3.0, 1.0}}));
+}
+
+// POV-Ray has a rule of its own for a sky along the view.
+TEST(PovScenes, SayWhatIsUpWhereTheCameraDoesNot) {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.objects.emplace_back();
+  View view;
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    view.camera = Camera{};
+    view.camera->projection = projection;
+    view.camera->position = {0, 5, 0};
+    EXPECT_NE(pov_scene(scene, view).text.find("sky <0,0,-1>"), std::string::npos);
+    view.camera->up = {1, 0, 0};
+    EXPECT_NE(pov_scene(scene, view).text.find("sky <1,0,0>"), std::string::npos);
+  }
 }
 
 TEST(Curves, AreStraightOnLogarithmicAxes) {
