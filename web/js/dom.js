@@ -14,6 +14,15 @@ export function el(tag, attributes = {}, ...children) {
   return element;
 }
 
+// Calls `act()` whenever the screen has another number of pixels for one of CSS: the page went to another screen, or the
+// browser zoomed. A query tells only that its own ratio is no more, so each change needs a new one.
+export function watchPixelRatio(act) {
+  matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener('change', () => {
+    watchPixelRatio(act);
+    act();
+  }, { once: true });
+}
+
 export function icon(name) {
   const kSvg = 'http://www.w3.org/2000/svg';
   const svg = document.createElementNS(kSvg, 'svg');

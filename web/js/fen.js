@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field for a chess position in Forsyth-Edwards Notation. The server is the judge; its verdict stands below.
+// The field for a chess position in Forsyth-Edwards Notation, line ends that were pasted included. The server is the
+// judge; its verdict stands below.
 import { byId } from './dom.js';
 
 const kTypingMs = 300;
@@ -14,14 +15,14 @@ export class FenField {
     let timer = 0;
     this.#input.addEventListener('input', () => {
       clearTimeout(timer);
-      timer = setTimeout(() => edited(this.#input.value.trim()), kTypingMs);
+      timer = setTimeout(() => edited(this.#input.value), kTypingMs);
     });
   }
 
   // `position` = {fen} of the scene on show, or null if it has no chess board. What is being typed in stays as it is.
   show(position) {
     this.#field.hidden = !position;
-    if (position && document.activeElement !== this.#input) this.#input.value = position.fen;
+    if (position && document.activeElement !== this.#input) this.#input.value = position.fen ?? '';
     this.showError();
   }
 
