@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moving a camera about its target, by the conventions of three.js' OrbitControls. Pure functions from camera to camera,
 // where a camera is the object of the scene language: {type, position, target, up, fov_y_deg | height}.
-import { add, cross, dot, largest, length, normalize, rotateAbout, scale, sub } from './vec.js';
+import { add, cross, dot, length, normalize, rotateAbout, scale, sub } from './vec.js';
 
 const kPolarMargin = 1e-3;  // radians kept from the poles, where "up" would lose its meaning; unseen as a movement
 const kUpAlongViewSine = 1e-10;  // as the renderer has it
@@ -17,16 +17,16 @@ export function frameOf(camera) {
   const distance = length(offset);
   const back = normalize(offset);
   const worldUp = normalize(camera.up ?? [0, 1, 0]);
-  const side = cross(worldUp, back);
-  const right = normalize(length(side) > kUpAlongViewSine ? side : cross(upOnMap(back), back));
+  const right = normalize(cross(usableUp(worldUp, back), back));
   return { right, up: cross(back, right), forward: scale(back, -1), worldUp, distance };
 }
 
-// What is up on the picture where the camera's own up lies along the view, as the renderer has it: the north of a map,
-// -z, for a view down; for a view up what a camera sees that tilts on from there to here; else the world's up.
-function upOnMap(back) {
-  const isVertical = Math.abs(back[1]) === largest(back);
-  return isVertical ? [0, 0, -Math.sign(back[1])] : [0, 1, 0];
+// A camera's up says nothing where it lies along the view. There the renderer takes the world's up, +y, and in a view
+// straight up or down, where that says nothing either, what has +x on the right: -z, the north of a map, looking down.
+function usableUp(worldUp, back) {
+  const isAlong = (a) => !(length(cross(a, back)) > kUpAlongViewSine);
+  if (!isAlong(worldUp)) return worldUp;
+  return isAlong([0, 1, 0]) ? [0, 0, -Math.sign(back[1])] : [0, 1, 0];
 }
 
 // Height of what the camera sees in the plane of its target, in scene units.

@@ -75,8 +75,8 @@ function cameraFrom(list) {
   const values = numbers.map(Number);
   if (!['h', 'p'].includes(kind) || values.length !== 10 || !values.every(Number.isFinite)) return null;
   const place = { position: values.slice(1, 4), target: values.slice(4, 7), up: values.slice(7, 10) };
-  const isView = place.position.some((x, i) => x !== place.target[i]) && place.up.some((x) => x !== 0) && values[0] > 0;
-  if (!isView) return null;
+  const isLens = values[0] > 0 && (kind === 'h' || values[0] < 180);
+  if (!isLens || place.position.every((x, i) => x === place.target[i]) || place.up.every((x) => x === 0)) return null;
   if (kind === 'h') return { type: 'orthographic', height: values[0], ...place };
   return { type: 'perspective', fov_y_deg: values[0], ...place };
 }

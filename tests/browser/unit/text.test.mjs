@@ -106,7 +106,7 @@ test('a link from before, of five digits, is still read', async () => {
 });
 
 test('a camera that sees nothing is none', async () => {
-  for (const list of ['p,0,9,4,2,0,1,0,0,1,0', 'h,-1,9,4,2,0,1,0,0,1,0', 'p,33,9,4,2,9,4,2,0,1,0', 'p,33,9,4,2,0,1,0,0,0,0']) {
+  for (const list of ['p,0,9,4,2,0,1,0,0,1,0', 'p,180,9,4,2,0,1,0,0,1,0', 'h,-1,9,4,2,0,1,0,0,1,0', 'p,33,9,4,2,9,4,2,0,1,0', 'p,33,9,4,2,0,1,0,0,0,0']) {
     assert.equal((await decodeLink(`#camera=${list}`)).camera, null, list);
   }
 });
