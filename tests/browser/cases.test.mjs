@@ -91,7 +91,7 @@ test('a camera of seventeen digits is sent with all of them, and comes back from
     type: 'perspective', position: [10000005.123456789, -6999997.987654321, 3000004.1000000001], target: [10000000.5, -7000000.1, 3000000.3],
     up: [0.1, 1, 1 / 3], fov_y_deg: 100 / 3,
   };
-  const scene = JSON.stringify({ ...JSON.parse(await input('page-far-from-the-origin')), camera });
+  const scene = JSON.stringify({ ...JSON.parse(await input('page-far-from-the-origin')), camera, image: kWindow.viewport });
   const settings = { ...kWindow, permissions: ['clipboard-read', 'clipboard-write'] };
   await onPage({ server, settings, path: await linkTo(scene) }, async ({ page, context }) => {
     const views = sentViews(page);

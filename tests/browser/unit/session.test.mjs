@@ -106,6 +106,19 @@ test('a moving view that never comes is given up for a newer one', async (t) => 
   assert.equal(server.overdue, 1);
 });
 
+test('a late frame of an older view is no end of the newer one that is on its way', async (t) => {
+  const tick = stopTimers(t);
+  const server = playServer();
+  await server.session.open(kScene, () => moving(0));
+  server.session.look(still(1));
+  server.nowMs = kOverdueMs;
+  tick(kOverdueMs);
+  await turn();
+  await server.answer(1, true);
+  await server.answer(2, true);
+  assert.deepEqual(server.frames.map((event) => event.moving), [true, false]);
+});
+
 test('latency is told with the first frame of a view and not with its refinements', async () => {
   const server = playServer();
   await server.session.open(kScene, () => still(0));
