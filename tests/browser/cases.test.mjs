@@ -235,7 +235,7 @@ for (const [what, scene] of [
       const first = await look(page);
       assert.equal(first, await lookOfRender(page, scene));
       await page.focus('#picture');
-      for (const [px, times] of [[100, 650], [-100, 40], [-100, 1260], [100, 40]]) {
+      for (const [px, times] of [[100, 650], [-100, 40], [-100, 1260], [100, 200]]) {
         await afterMoving(page, () => turnWheel(page, px, times));
         const { camera } = views.at(-1);
         const numbers = [...camera.position, ...camera.target, camera.height ?? camera.fov_y_deg];
