@@ -251,11 +251,16 @@ for (const [what, scene] of [
   });
 }
 
-// From here on the page's next view is refused.
-function refuseNextViews(page, times) {
-  return page.route('**/view', (route) => route.fulfill({
-    status: 422, contentType: 'application/problem+json', body: '{"title": "no", "detail": "found no number"}',
-  }), { times });
+// Makes a movement of which both views are refused, the one that moves and the one at rest.
+async function moveToRefusal(page, move) {
+  let refusals = 0;
+  await new Promise((resolve, reject) => {
+    page.route('**/view', async (route) => {
+      await route.fulfill({ status: 422, contentType: 'application/problem+json', body: '{"title": "no", "detail": "found no number"}' });
+      if (++refusals === 2) resolve();
+    }, { times: 2 }).then(move).catch(reject);
+  });
+  await page.waitForSelector('#notice:has-text("This view cannot be drawn. found no number")');
 }
 
 for (const [what, mend] of [
@@ -267,10 +272,7 @@ for (const [what, mend] of [
     await onPage({ server, settings: kWindow, path: kQuickScene, expected: kRefused }, async ({ page }) => {
       await page.focus('#picture');
       await afterMoving(page, () => page.keyboard.press('Shift+ArrowRight'));
-      await refuseNextViews(page, 2);
-      await page.keyboard.press('Shift+ArrowLeft');
-      await page.waitForSelector('#notice:has-text("This view cannot be drawn")');
-      await page.waitForTimeout(300);  // the view at rest is refused too
+      await moveToRefusal(page, () => page.keyboard.press('Shift+ArrowLeft'));
       await afterMoving(page, () => mend(page));
       await isQuiet(page);
     });
@@ -321,17 +323,25 @@ test('a scene that is edited while the hand is away from it keeps the view, unle
   });
 });
 
-test('a FEN is sent as it was pasted, line ends and tabs included', async () => {
-  const scene = { ...kFine, objects: [{ type: 'chess_position', fen: '8/8/8/4k3/8/4K3/4P3/8', detail: 8 }] };
-  await onPage({ server, settings: kWindow, path: await linkTo(scene), expected: [/4\d\d/] }, async ({ page }) => {
+test('a FEN is sent as it was pasted, its line ends as spaces', async () => {
+  const fen = '8/8/8/4k3/8/4K3/4P3/8\nb - - 0 1';
+  const scene = { ...kFine, objects: [{ type: 'chess_position', fen: fen.replace('\n', ' '), detail: 8 }] };
+  const settings = { ...kWindow, permissions: ['clipboard-read', 'clipboard-write'] };
+  await onPage({ server, settings, path: await linkTo(scene), expected: kRefused }, async ({ page }) => {
     await openPanel(page, 'edit');
-    const pasted = ' 8/8/4k3/8/8/4K3/4P3/8\n\tw - - 0 1 \n';
+    assert.equal(await page.inputValue('#fen'), '8/8/8/4k3/8/4K3/4P3/8 b - - 0 1');
+    await page.evaluate(() => navigator.clipboard.writeText(' 8/8/4k3/\r\n8/8/4K3/4P3/8\n\tw - - 0 1 \n'));
+    await page.focus('#fen');
+    await page.keyboard.press('Control+A');
     const [opened] = await Promise.all([
       page.waitForRequest((request) => request.method() === 'POST' && request.url().endsWith('/v1/sessions')),
-      page.fill('#fen', pasted),
+      page.keyboard.press('Control+V'),
     ]);
+    const pasted = ' 8/8/4k3/8/8/4K3/4P3/8 \tw - - 0 1  ';
     assert.equal(opened.postDataJSON().objects[0].fen, pasted);
     assert.equal(JSON.parse(await page.inputValue('#editor-text')).objects[0].fen, pasted);
+    await page.keyboard.press('Control+Z');
+    assert.equal(await page.inputValue('#fen'), '8/8/8/4k3/8/4K3/4P3/8 b - - 0 1');
   });
 });
 

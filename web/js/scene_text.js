@@ -24,6 +24,11 @@ export function withFen(text, fen) {
   return text.replace(kChess, (type) => `${type}, "fen": ${JSON.stringify(fen)}`);
 }
 
+// A FEN whose fields or ranks stand on several lines, on one.
+export function inOneLine(fen) {
+  return String(fen).replace(/\/[\r\n]+/g, '/').replace(/[\r\n]+/g, ' ');
+}
+
 // Whether two scene texts ask for the same camera, so that an edit may keep the user's own.
 export function sameCamera(textA, textB) {
   const [a, b] = [parsed(textA), parsed(textB)];

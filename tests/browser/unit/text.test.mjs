@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { parseRenderInfo, parseServerTiming } from '../../../web/js/api.js';
-import { findPosition, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
+import { findPosition, inOneLine, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
 import { curlCommand, decodeLink, encodeLink, linkWith, stillDocument } from '../../../web/js/share.js';
 
 const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
@@ -51,6 +51,13 @@ test('a FEN with line ends, tabs and other spaces goes into the text as it is', 
   const text = withFen(kText, pasted);
   assert.equal(findPosition(JSON.parse(text)).fen, pasted);
   assert.equal(text.split('\n').length, kText.split('\n').length);
+});
+
+test('a FEN on several lines keeps its fields apart and its ranks together', () => {
+  assert.equal(inOneLine('8/8/8/4k3/8/4K3/4P3/8\r\nw - -\n0 1\n'), '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1 ');
+  assert.equal(inOneLine('8/8/8/4k3/\n8/4K3/\n4P3/8'), '8/8/8/4k3/8/4K3/4P3/8');
+  const plain = ' 8/8/8/4k3/8/4K3/4P3/8\tw\u00a0- - 0 1 ';
+  assert.equal(inOneLine(plain), plain);
 });
 
 test('of two keys that are called fen the position\'s own is replaced', () => {
