@@ -32,7 +32,7 @@ export async function onPage({ server, settings = kSmall, path: where = '/', exp
     const page = context.pages()[0];
     page.setDefaultTimeout(kPatienceMs);
     const complaints = watch(page, expected, new URL(server.url).hostname);
-    await page.addInitScript(installEyes);
+    await context.addInitScript(installEyes);
     await page.goto(server.url + where);
     await finished(page);
     await body({ page, server, context });

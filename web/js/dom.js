@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Making elements. What comes from outside enters as text, never as markup.
 
+const kGlanceMs = 500;
+
 export const byId = (id) => document.getElementById(id);
 
 // el('p', {class: 'x', hidden: false}, 'text', child): strings become text nodes; an attribute of null or false is left out.
@@ -12,6 +14,24 @@ export function el(tag, attributes = {}, ...children) {
   }
   element.append(...children);
   return element;
+}
+
+// Calls `act()` whenever the screen has another number of pixels for one of CSS: the page went to another screen, or the
+// browser zoomed. A query tells only that its own ratio is no more, so each change needs a new one. Where the ratio is
+// emulated, Chromium changes it and tells nobody; therefore it is also looked at now and then.
+export function watchPixelRatio(act) {
+  let known = devicePixelRatio;
+  const look = () => {
+    if (devicePixelRatio === known) return;
+    known = devicePixelRatio;
+    act();
+  };
+  const listen = () => matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener('change', () => {
+    listen();
+    look();
+  }, { once: true });
+  listen();
+  setInterval(look, kGlanceMs);
 }
 
 export function icon(name) {

@@ -6,7 +6,8 @@
 const kLinePx = 16;          // a wheel that counts lines, as Firefox' does
 const kPagePx = 400;
 const kZoomPerPx = 0.0011;   // of the wheel; one notch of 100 pixels is a tenth
-const kPinchGain = 10;       // a trackpad's pinch comes as a wheel with Ctrl and small numbers
+const kPinchPerPx = 0.01;    // browsers tell the logarithm of a trackpad's pinch in hundredths
+const kMostPinchPx = 40;     // in one event; a notch of any wheel is more
 const kDragZoomPerPx = 0.006;
 const kKeyPan = 0.06;        // picture heights a key press
 const kKeyOrbit = Math.PI / 24;
@@ -17,6 +18,7 @@ const kArrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], Arrow
 // `move({azimuth, polar, panX, panY, zoomLog}, cursor)` gets every movement, `reset()` the wish to go back.
 export function attachGestures(element, { move, reset }) {
   const pointers = new Map();  // id -> {x, y, action} of what touches the picture
+  const isControlHeld = watchControlKey();
 
   const cursorAt = (x, y) => {
     const box = element.getBoundingClientRect();
@@ -52,10 +54,10 @@ export function attachGestures(element, { move, reset }) {
     if (!pointer) return;
     if (pointers.size === 2) {
       pinch(event.pointerId, event.clientX, event.clientY);
-    } else if (pointers.size === 1) {
-      drag(pointer.action, event.clientX - pointer.x, event.clientY - pointer.y, pointer.origin);
-      Object.assign(pointer, { x: event.clientX, y: event.clientY });
+      return;
     }
+    if (pointers.size === 1) drag(pointer.action, event.clientX - pointer.x, event.clientY - pointer.y, pointer.origin);
+    Object.assign(pointer, { x: event.clientX, y: event.clientY });
   });
 
   const release = (event) => pointers.delete(event.pointerId);
@@ -66,9 +68,9 @@ export function attachGestures(element, { move, reset }) {
 
   element.addEventListener('wheel', (event) => {
     event.preventDefault();
-    const unit = [1, kLinePx, kPagePx][event.deltaMode] ?? 1;
-    const gain = event.ctrlKey ? kPinchGain : 1;
-    move({ zoomLog: -event.deltaY * unit * gain * kZoomPerPx }, cursorAt(event.clientX, event.clientY));
+    const px = event.deltaY * ([1, kLinePx, kPagePx][event.deltaMode] ?? 1);
+    const isPinch = event.ctrlKey && !isControlHeld() && Math.abs(px) < kMostPinchPx;
+    move({ zoomLog: -px * (isPinch ? kPinchPerPx : kZoomPerPx) }, cursorAt(event.clientX, event.clientY));
   }, { passive: false });
 
   element.addEventListener('keydown', (event) => {
@@ -86,6 +88,19 @@ export function attachGestures(element, { move, reset }) {
     else return false;
     return true;
   };
+}
+
+// Whether a Ctrl key is held. A wheel event cannot tell: a trackpad's pinch comes as a wheel with Ctrl that nobody pressed.
+// A key that was pressed elsewhere is known by the next movement of the pointer.
+function watchControlKey() {
+  let isHeld = false;
+  const listen = (type, read) => addEventListener(type, read, { capture: true, passive: true });
+  for (const type of ['keydown', 'keyup']) {
+    listen(type, (event) => { isHeld = event.key === 'Control' ? type === 'keydown' : event.ctrlKey; });
+  }
+  for (const type of ['pointerdown', 'pointermove']) listen(type, (event) => { isHeld = event.ctrlKey; });
+  listen('blur', () => { isHeld = false; });
+  return () => isHeld;
 }
 
 function actionOf(event) {

@@ -71,12 +71,13 @@ let method = {};  // what draws the picture, as a wish of methods.js; the addres
 let words = kNoWords;
 let scenes = [];
 let picker = null;
+let questions = 0;  // of foretell()
 
 // Shows the scene whose text `load()` gives in place of the present one; throws what the server has against it.
-// `adaptMethod(wish)`: what is left of the wish for a method.
-async function open(load, { file = null, title = shown.title, isEdited = false, camera = null, adaptMethod = (wish) => wish }) {
+// `camera`, `keepsView` and `adaptMethod` as of Viewer.
+async function open(load, { file = null, title = shown.title, isEdited = false, camera = null, keepsView = false, adaptMethod = (wish) => wish }) {
   status.restart();
-  const info = await viewer.open(load, camera, adaptMethod);
+  const info = await viewer.open(load, { camera, keepsView, adaptMethod });
   const scene = JSON.parse(info.text);
   Object.assign(shown, { file, title, text: info.text });
   expectRules(scene.render);
@@ -144,11 +145,13 @@ async function openOrExplain(load, options) {
   }
 }
 
-// Asks what the picture on show should have cost. A question to the server for those who look at the plan only.
+// Asks what the picture on show should have cost. A question to the server for those who look at the plan only; of
+// several answers on the way only that to the last question counts.
 async function foretell() {
   if (byId('plan-panel').hidden || !shown.text) return;
+  const question = ++questions;
   const { predicted } = await api.planOf(stillDocument(shown.text, viewer.still)).catch(() => ({}));
-  if (predicted) showPrediction(byId('plan-body'), predicted);
+  if (predicted && question === questions) showPrediction(byId('plan-body'), predicted);
 }
 
 function pick(scene) {
@@ -159,10 +162,10 @@ function pick(scene) {
 
 // Shows what the user wrote. Returns what the server has against it, or null if something newer is under way.
 async function tryText(text) {
-  const camera = shown.text && sameCamera(text, shown.text) ? viewer.camera : null;
+  const keepsView = shown.text !== null && sameCamera(text, shown.text);
   const before = renderOf(shown.text ?? text);
   try {
-    await open(() => text, { camera, isEdited: true, adaptMethod: (wish) => wishAfterEdit(wish, before, renderOf(text)) });
+    await open(() => text, { keepsView, isEdited: true, adaptMethod: (wish) => wishAfterEdit(wish, before, renderOf(text)) });
     keepInAddress(location.hash);
     return [];
   } catch (error) {

@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene as its author wrote it: questions and small changes that leave the rest of the text alone. Pure.
 
-const kString = '"(?:[^"\\\\\\n]|\\\\.)*"';  // a JSON string, as a pattern
+const kFen = /("fen"\s*:\s*)("(?:[^"\\\n]|\\.)*"|[^\s,}\]]+)/g;  // the key and its value
+const kChess = /"type"\s*:\s*"chess_position"/;
 
-// The first chess position of a parsed scene: {fen, index}, or null.
+// The first chess position of a parsed scene: {fen}, or null. Its FEN is undefined where it has none.
 export function findPosition(scene) {
-  const index = (scene?.objects ?? []).findIndex?.((object) => object?.type === 'chess_position') ?? -1;
-  return index < 0 ? null : { fen: scene.objects[index].fen ?? '', index };
+  const position = (scene?.objects ?? []).find?.((object) => object?.type === 'chess_position');
+  return position ? { fen: position.fen } : null;
 }
 
-// The text with another FEN in its first chess position, in place where the old one can be found. A text that is no
-// JSON, as happens while it is being written, is taken to mean its first "fen". Null if there is no place for a FEN.
+// The text with another FEN in its first chess position, and not a character else. A text that is no JSON, as happens
+// while it is being written, is taken to mean its first "fen". Null if there is no place for a FEN.
 export function withFen(text, fen) {
   const scene = parsed(text);
   const position = findPosition(scene);
   if (scene !== undefined && !position) return null;
-  const old = position ? escapeForPattern(JSON.stringify(position.fen)) : kString;
-  const place = new RegExp(`("fen"\\s*:\\s*)${old}`);
-  if (place.test(text)) return text.replace(place, (_, key) => key + JSON.stringify(fen));
-  if (!position) return null;
-  scene.objects[position.index].fen = fen;
-  return `${JSON.stringify(scene, null, 2)}\n`;
+  for (const { 0: whole, 1: key, 2: value, index } of text.matchAll(kFen)) {
+    if (position && parsed(value) !== position.fen) continue;
+    return text.slice(0, index) + key + JSON.stringify(fen) + text.slice(index + whole.length);
+  }
+  if (!position || position.fen !== undefined || !kChess.test(text)) return null;
+  return text.replace(kChess, (type) => `${type}, "fen": ${JSON.stringify(fen)}`);
+}
+
+// A FEN whose fields or ranks stand on several lines, on one.
+export function inOneLine(fen) {
+  return String(fen).replace(/\/[\r\n]+/g, '/').replace(/[\r\n]+/g, ' ');
 }
 
 // Whether two scene texts ask for the same camera, so that an edit may keep the user's own.
@@ -60,8 +66,4 @@ function parsed(text) {
   } catch {
     return undefined;
   }
-}
-
-function escapeForPattern(text) {
-  return text.replace(/[.*+?^${}()|[\]\\/]/g, '\\$&');
 }

@@ -10,6 +10,9 @@ export const kOverdueMs = 600;  // a moving view not seen by then is given up fo
 // A later open() came before this one was answered.
 export class Superseded extends Error {}
 
+const isGone = (error) => error instanceof Problem && (error.status === 404 || error.status === 410);
+const isRefusal = (error) => !isGone(error) && !hindranceOf(error);
+
 export class ViewSession {
   #api;
   #on;
@@ -19,15 +22,16 @@ export class ViewSession {
   #opens = 0;
   #wanted = { seq: 0 };  // the newest view; its seq grows over all sessions, so an old frame is known by it
   #sent = { seq: 0 };    // the view that the server has: {seq, moving, atMs}
-  #seenSeq = 0;          // the newest view of which a frame came
+  #seenSeq = 0;          // the newest view of which a frame came, or a refusal
+  #refusedSeq = null;    // the view that the server refused last, until a newer one is seen; null if there is none
   #isFinal = false;      // and that frame was its last
   #frameNumber = 0;
   #polling = null;       // AbortController of the wait for frames
   #overdueTimer = 0;
   #recovery = null;      // token of the attempt to go on after a failure
 
-  // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, latencyMs with the first frame
-  // of the newest; `on.overdue()` says that a moving view was given up; `on.state(name, problem)` is one of live, busy,
+  // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, moving also where a newer one is
+  // on its way, latencyMs with the first frame of the newest; `on.overdue()` says that a moving view was given up; `on.state(name, problem)` is one of live, busy,
   // offline, failed. `now` is in milliseconds.
   constructor({ api, on, now = () => performance.now() }) {
     this.#api = api;
@@ -62,6 +66,7 @@ export class ViewSession {
         const hindrance = hindranceOf(error);
         if (!hindrance) {
           if (!this.#recovery) this.#on.state('live');  // it was reached, after all
+          this.#refusedSeq = this.#wanted.seq;          // what is said of it lasts until the next view is seen
           throw error;
         }
         this.#on.state(hindrance);
@@ -97,6 +102,7 @@ export class ViewSession {
     this.#polling?.abort();
     this.#polling = null;
     this.#recovery = null;
+    this.#refusedSeq = null;
     this.#id = id;
     this.#sent = { seq: 0 };
     this.#frameNumber = 0;
@@ -122,7 +128,8 @@ export class ViewSession {
     const id = this.#id;
     this.#sent = { seq: this.#wanted.seq, moving: this.#wanted.moving, atMs: this.#now() };
     this.#isFinal = false;
-    this.#api.putView(id, this.#wanted).catch((error) => this.#fail(id, error));
+    const { seq } = this.#wanted;
+    this.#api.putView(id, this.#wanted).catch((error) => this.#fail(id, error, seq));
     if (!this.#polling) this.#poll(id);
   }
 
@@ -149,13 +156,18 @@ export class ViewSession {
       const latencyMs = isNewest && this.#seenSeq < frame.viewSeq ? this.#now() - this.#sent.atMs : null;
       this.#seenSeq = Math.max(this.#seenSeq, frame.viewSeq);
       this.#isFinal = frame.isFinal && frame.viewSeq === this.#wanted.seq;
-      this.#on.frame({ frame, moving: isNewest && this.#sent.moving, latencyMs });
+      if (this.#refusedSeq !== null && frame.viewSeq > this.#refusedSeq) {
+        this.#refusedSeq = null;
+        this.#on.state('live');
+      }
+      this.#on.frame({ frame, moving: !isNewest || this.#sent.moving, latencyMs });
     }
     this.#send();
   }
 
-  async #fail(id, error) {
-    if (this.#recovery || id !== this.#id) return;
+  // `seq`: the view that it befell.
+  async #fail(id, error, seq = this.#sent.seq) {
+    if (this.#recovery || id !== this.#id || (isRefusal(error) && seq < this.#sent.seq)) return;
     const recovery = {};
     this.#recovery = recovery;
     this.#polling?.abort();
@@ -168,9 +180,10 @@ export class ViewSession {
 
   // One attempt to go on after `cause`; returns what stopped it, or null when there is nothing more to try.
   async #retry(id, cause, attempt) {
-    const isGone = cause instanceof Problem && (cause.status === 404 || cause.status === 410);
     const hindrance = hindranceOf(cause);
-    if (!isGone && !hindrance) {
+    if (isRefusal(cause)) {
+      this.#refusedSeq = this.#sent.seq;
+      this.#seenSeq = this.#sent.seq;  // nothing more will come of it
       this.#on.state('failed', cause);
       return null;
     }
@@ -179,7 +192,7 @@ export class ViewSession {
       await waitOut(cause, attempt);
     }
     try {
-      if (isGone) {
+      if (isGone(cause)) {
         const info = await this.#api.openSession(this.#text);
         if (this.#id !== id) return this.#discard(info.id);
         this.#adopt(info.id);

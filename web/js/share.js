@@ -66,8 +66,8 @@ function methodFrom(parts) {
 
 function cameraNumbers(camera) {
   const angle = camera.type === 'orthographic' ? ['h', camera.height] : ['p', camera.fov_y_deg];
-  const short = (x) => Number(x.toPrecision(5));
-  return [angle[0], short(angle[1]), ...[...camera.position, ...camera.target, ...(camera.up ?? [0, 1, 0])].map(short)];
+  const numbers = [angle[1], ...camera.position, ...camera.target, ...(camera.up ?? [0, 1, 0])];
+  return [angle[0], ...numbers.map((x) => String(x).replace('e+', 'e'))];  // a + in an address means a space
 }
 
 function cameraFrom(list) {
@@ -75,6 +75,8 @@ function cameraFrom(list) {
   const values = numbers.map(Number);
   if (!['h', 'p'].includes(kind) || values.length !== 10 || !values.every(Number.isFinite)) return null;
   const place = { position: values.slice(1, 4), target: values.slice(4, 7), up: values.slice(7, 10) };
+  const isLens = values[0] > 0 && (kind === 'h' || values[0] < 180);
+  if (!isLens || place.position.every((x, i) => x === place.target[i]) || place.up.every((x) => x === 0)) return null;
   if (kind === 'h') return { type: 'orthographic', height: values[0], ...place };
   return { type: 'perspective', fov_y_deg: values[0], ...place };
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way from hand to picture: gestures push the camera, the camera becomes views of a session, the session's frames
 // are drawn. While moving, a smaller picture is asked for; at rest, the full one, which then refines.
-import { fitToAspect, orbit, pan, toSceneCamera, zoom } from './camera.js';
+import { fitToAspect, toSceneCamera } from './camera.js';
+import { watchPixelRatio } from './dom.js';
 import { attachGestures } from './gestures.js';
 import { Inertia, kSettleMs } from './inertia.js';
 import { Picture } from './picture.js';
+import { isAbout, moved, rangeOf } from './range.js';
 import { fullSize, nextScale, scaledSize } from './resolution.js';
 import { rulePatch } from './rules.js';
 import { kOverdueMs, ViewSession } from './session.js';
@@ -21,7 +23,8 @@ export class Viewer {
   #inertia;
   #on;
   #camera = null;
-  #home = null;
+  #home = null;   // the scene's own camera; #camera is this very object until it is moved
+  #range = null;  // how far #camera may go, as of range.js
   #rule = null;
   #method = {};
   #pictureAspect = 16 / 9;
@@ -31,6 +34,7 @@ export class Viewer {
   #ticking = false;
   #lastTick = 0;
   #restTimer = 0;
+  #resizeTimer = 0;
 
   // `on.frame({frame, size, moving})` after a picture was drawn, `on.state(name, problem)` as of ViewSession,
   // `on.moved()` when the camera left its place.
@@ -46,23 +50,23 @@ export class Viewer {
     });
     attachGestures(canvas, { move: (part, cursor) => this.#move(part, cursor), reset: () => this.reset() });
     this.#measure();
-    let resizeTimer = 0;
-    new ResizeObserver(() => {
-      clearTimeout(resizeTimer);
-      resizeTimer = setTimeout(() => this.#resized(), kResizeMs);
-    }).observe(canvas);
+    new ResizeObserver(() => this.#measureSoon()).observe(canvas);
+    watchPixelRatio(() => this.#measureSoon());
     addEventListener('pagehide', () => this.#session.close());
   }
 
   // Shows the scene whose text `load()` gives. `camera` = where to look from, instead of the scene's own camera;
-  // `adaptMethod(wish)` = what is left of the wish for a method once the scene is there.
-  open(load, camera, adaptMethod) {
+  // `keepsView` = from where the hand went, if it did and the scene is still about there. `adaptMethod(wish)` = what is
+  // left of the wish for a method once the scene is there.
+  open(load, { camera, keepsView, adaptMethod }) {
     return this.#session.open(load, (info) => {
       this.#inertia.stop();
       this.#method = adaptMethod(this.#method);
+      this.#range = rangeOf(info.bounds, info.camera);
+      const isKept = keepsView && this.#camera !== this.#home && isAbout(this.#camera, this.#range);
+      this.#camera = camera ?? (isKept ? this.#camera : info.camera);
       this.#home = info.camera;
       this.#pictureAspect = info.image.width / info.image.height;
-      this.#camera = { ...info.camera, ...camera };
       this.#restSoon();
       return this.#view(true);  // a small picture at once is better than a large one later
     });
@@ -130,9 +134,7 @@ export class Viewer {
     const elapsedMs = Math.min(kMaxStepMs, Math.max(1, time - this.#lastTick));
     this.#lastTick = time;
     const part = this.#inertia.take(elapsedMs);
-    let camera = orbit(this.#camera, part.azimuth, part.polar);
-    camera = pan(camera, part.panX, part.panY);
-    this.#camera = zoom(camera, Math.exp(part.zoomLog), this.#cursor);
+    this.#camera = moved(this.#camera, part, this.#cursor, this.#range);
     this.#session.look(this.#view(true));
     this.#restSoon();
     this.#ticking = this.#inertia.isMoving;
@@ -152,6 +154,11 @@ export class Viewer {
 
   #slowDown() {
     this.#scale = nextScale(this.#scale, kOverdueMs);
+  }
+
+  #measureSoon() {
+    clearTimeout(this.#resizeTimer);
+    this.#resizeTimer = setTimeout(() => this.#resized(), kResizeMs);
   }
 
   #measure() {

@@ -68,10 +68,61 @@ test('the poles are never crossed, and the camera comes back from them', () => {
   }
 });
 
-test('a camera that looks straight down can still be turned', () => {
-  const moved = orbit({ ...kCamera, position: [0, 9, 0], target: [0, 0, 0] }, 0.3, -0.2);
-  assert.ok(moved.position.every(Number.isFinite));
-  near(length(moved.position), 9);
+test('a camera straight down has north up and east on the right, as a map', () => {
+  const { right, up } = frameOf({ ...kCamera, position: [3, 9, -2], target: [3, 0, -2], up: [0, 2, 0] });
+  near(right, [1, 0, 0]);
+  near(up, [0, 0, -1]);
+});
+
+test('a camera straight up is the one that tilts on past the horizon from a view to the north', () => {
+  const up = { ...kCamera, position: [0, -9, 0], target: [0, 0, 0] };
+  near(frameOf(up).right, [1, 0, 0]);
+  near(frameOf(up).up, [0, 0, 1]);
+  const tilted = frameOf(orbit({ ...up, position: [0, 0, 9] }, 0, -Math.PI));
+  near(tilted.right, [1, 0, 0]);
+  near(tilted.up, [0, 0, 1], 2e-3);
+});
+
+const kAlongView = [[0, 1, 0], [0, 0, 1], [1, 0, 0], [1, 2, -3], [0.1, 5, 0], [0, -1, 1], [1e-200, 0, 0], [0, 1e30, 0]];
+
+test('no movement begins with a jump, also where up lies along the view', () => {
+  const small = 2 * Math.PI / 400;  // a pixel of a picture of 400
+  for (const up of kAlongView) {
+    for (const side of [1, -1]) {
+      for (const kind of [kCamera, kOrthographic]) {
+        const back = up.map((x) => (side * 7 * x) / Math.hypot(...up));
+        const camera = { ...kind, up, target: [1, 2, 3], position: back.map((x, i) => [1, 2, 3][i] + x) };
+        const before = frameOf(camera);
+        for (const [azimuth, polar] of [[small, 0], [0, small], [0, -small], [-small, small], [1e-9, 0]]) {
+          const after = frameOf(orbit(camera, azimuth, polar));
+          for (const axis of ['right', 'up', 'forward']) {
+            near(after[axis], before[axis], Math.abs(azimuth) + Math.abs(polar) + 1.1e-3);
+          }
+        }
+      }
+    }
+  }
+});
+
+test('a camera near a pole but not in it keeps its place through a turn', () => {
+  const camera = { ...kCamera, target: [0, 0, 0], position: [0, 9, 9e-5] };
+  near(Math.hypot(...orbit(camera, 1.3, 0).position), Math.hypot(...camera.position));
+  near(orbit(orbit(camera, 1.3, 0), -1.3, 0).position, camera.position, 1e-2);
+});
+
+test('no movement changes no digit', () => {
+  for (const camera of [kCamera, kTilted, kOrthographic]) {
+    assert.equal(zoom(pan(orbit(camera, 0, 0), 0, 0), 1), camera);
+  }
+});
+
+test('far from the origin an orbit is as it is there, to the step of the coordinates', () => {
+  const far = [1e7, -7e6, 3e6];
+  const offset = [4, 2.5, -3];
+  const there = (target) => ({ ...kCamera, target, position: offset.map((x, i) => x + target[i]) });
+  let [near0, away] = [there([0, 0, 0]), there(far)];
+  for (let i = 0; i < 100; ++i) [near0, away] = [near0, away].map((camera) => orbit(camera, 0.03, i % 2 ? 0.02 : -0.02));
+  near(sub(away.position, away.target), near0.position, 1e-7);
 });
 
 test('a pan keeps the point of the target plane under the hand', () => {
@@ -106,6 +157,19 @@ test('a narrow window sees as far to the sides as the picture that was composed'
 
 test('a wide window keeps the height of the picture', () => {
   assert.equal(fitToAspect(kCamera, 16 / 9, 21 / 9), kCamera);
+});
+
+test('a window never narrows an angle that is wide by itself', () => {
+  const wide = { ...kCamera, fov_y_deg: 176 };
+  assert.ok(fitToAspect(wide, 16 / 9, 9 / 19).fov_y_deg >= 176);
+});
+
+test('a camera for the server has every digit of its own', () => {
+  const digits = [10000000.123456789, -0.1 - 0.2, 1 / 3];
+  for (const camera of [{ ...kCamera, fov_y_deg: 40 / 3 }, { ...kOrthographic, height: 1e-12 / 3 }]) {
+    const written = { ...camera, position: digits, target: digits.map((x) => x / 7), up: [1e-17, 1 / 7, 2e29 / 3] };
+    assert.deepEqual(JSON.parse(JSON.stringify(toSceneCamera(written))), written);
+  }
 });
 
 test('a camera for the server has exactly the keys of its kind', () => {

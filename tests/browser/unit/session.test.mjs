@@ -106,6 +106,19 @@ test('a moving view that never comes is given up for a newer one', async (t) => 
   assert.equal(server.overdue, 1);
 });
 
+test('a late frame of an older view is no end of the newer one that is on its way', async (t) => {
+  const tick = stopTimers(t);
+  const server = playServer();
+  await server.session.open(kScene, () => moving(0));
+  server.session.look(still(1));
+  server.nowMs = kOverdueMs;
+  tick(kOverdueMs);
+  await turn();
+  await server.answer(1, true);
+  await server.answer(2, true);
+  assert.deepEqual(server.frames.map((event) => event.moving), [true, false]);
+});
+
 test('latency is told with the first frame of a view and not with its refinements', async () => {
   const server = playServer();
   await server.session.open(kScene, () => still(0));
@@ -163,6 +176,70 @@ test('a scene that the server refuses leaves the one on show alone', async () =>
   await turn();
   assert.deepEqual(server.closed, []);
   assert.equal(server.views.at(-1).id, 's1');
+});
+
+const kRefusal = () => new Problem(422, { detail: 'found no number' });
+
+test('what was said of a refused view is taken back when a later one is seen, and not before', async () => {
+  const server = playServer();
+  await server.session.open(kScene, () => still(0));
+  await server.answer(1);
+  server.failPut = kRefusal();
+  server.session.look(still(NaN));
+  await turn();
+  assert.equal(server.states.at(-1), 'failed');
+  server.session.look(still(2));
+  await turn();
+  assert.equal(server.states.at(-1), 'failed', 'there is no picture yet');
+  await server.answer(2);
+  assert.equal(server.states.at(-1), 'failed', 'an older picture says nothing of the new view');
+  await server.answer(3);
+  assert.equal(server.states.at(-1), 'live');
+  assert.deepEqual(sentX(server), [0, 2]);
+});
+
+test('a refused view that moved is not waited for, and no sign of a slow server', async () => {
+  const server = playServer();
+  await server.session.open(kScene, () => still(0));
+  server.failPut = kRefusal();
+  server.session.look(moving(1));
+  await turn();
+  server.session.look(still(2));
+  await turn();
+  assert.deepEqual(sentX(server), [0, 2]);
+  assert.equal(server.overdue, 0);
+});
+
+test('a refusal that comes after a newer view went out is of no account', async () => {
+  const server = playServer();
+  await server.session.open(kScene, () => still(0));
+  let refuse;
+  const { putView } = server.api;
+  server.api.putView = () => new Promise((_, reject) => { refuse = reject; });
+  server.session.look(still(NaN));
+  server.api.putView = putView;
+  server.session.look(still(2));
+  refuse(kRefusal());
+  await turn();
+  assert.ok(!server.states.includes('failed'));
+  await server.answer(3);
+  assert.equal(server.frames.at(-1).frame.viewSeq, 3, 'its frames are still waited for');
+});
+
+test('what was said of a refused scene is taken back when the one before is moved and seen', async () => {
+  const server = playServer();
+  await server.session.open(kScene, () => still(0));
+  await server.answer(1);
+  const { openSession } = server.api;
+  server.api.openSession = async () => { throw kRefusal(); };
+  await assert.rejects(server.session.open(kScene, () => still(1)), Problem);
+  server.api.openSession = openSession;
+  const told = server.states.length;
+  server.session.look(still(2));
+  await turn();
+  assert.equal(server.states.length, told);
+  await server.answer(2);
+  assert.deepEqual(server.states.slice(told), ['live']);
 });
 
 test('a scene that is wanted while the server is away or busy is asked for until it comes', async (t) => {

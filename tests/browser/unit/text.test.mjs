@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { parseRenderInfo, parseServerTiming } from '../../../web/js/api.js';
-import { findPosition, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
+import { findPosition, inOneLine, offsetOf, sameCamera, tokenEnd, withFen } from '../../../web/js/scene_text.js';
 import { curlCommand, decodeLink, encodeLink, linkWith, stillDocument } from '../../../web/js/share.js';
 
 const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
@@ -35,6 +35,36 @@ test('a FEN goes into a text that is still being written, and nothing else chang
   assert.equal(withFen(draft, '8/8/8/8/8/8/8/K6k'), draft.replace(kStart, '8/8/8/8/8/8/8/K6k'));
 });
 
+test('a FEN goes into a position that has none without another character being touched', () => {
+  const text = '{"x-big": 12345678901234567890, "objects": [ {"type" : "chess_position" , "detail": 8e0} ]}\r\n';
+  assert.equal(withFen(text, '8/8'), text.replace('"chess_position"', '"chess_position", "fen": "8/8"'));
+});
+
+test('a FEN that was written with escapes, or is none, is replaced where it stands', () => {
+  const escaped = kText.replace('rnbqkbnr/pppp', '\\u0072nbqkbnr\\/pppp');
+  assert.equal(withFen(escaped, '8/8'), kText.replace(kStart, '8/8'));
+  assert.equal(withFen(kText.replace(`"${kStart}"`, 'null'), '8/8'), kText.replace(kStart, '8/8'));
+});
+
+test('a FEN with line ends, tabs and other spaces goes into the text as it is', () => {
+  const pasted = '  8/8/8/4k3/8/4K3/4P3/8\r\nw\t-\u00a0- 0 1\n';
+  const text = withFen(kText, pasted);
+  assert.equal(findPosition(JSON.parse(text)).fen, pasted);
+  assert.equal(text.split('\n').length, kText.split('\n').length);
+});
+
+test('a FEN on several lines keeps its fields apart and its ranks together', () => {
+  assert.equal(inOneLine('8/8/8/4k3/8/4K3/4P3/8\r\nw - -\n0 1\n'), '8/8/8/4k3/8/4K3/4P3/8 w - - 0 1 ');
+  assert.equal(inOneLine('8/8/8/4k3/\n8/4K3/\n4P3/8'), '8/8/8/4k3/8/4K3/4P3/8');
+  const plain = ' 8/8/8/4k3/8/4K3/4P3/8\tw\u00a0- - 0 1 ';
+  assert.equal(inOneLine(plain), plain);
+});
+
+test('of two keys that are called fen the position\'s own is replaced', () => {
+  const text = kText.replace('"camera"', '"x-fen": {"fen": "8/8"}, "camera"').replace('{\n', '{\n  "extras": {"fen": "old"},\n');
+  assert.equal(withFen(text, '9'), text.replace(kStart, '9'));
+});
+
 test('a text without a position has no place for a FEN', () => {
   for (const text of ['{"objects": [{"type": "sphere"}]}', '{"objects": [', '{"objects": 3}', 'null', '']) {
     assert.equal(withFen(text, '8/8/8/8/8/8/8/8'), null);
@@ -62,6 +92,30 @@ test('a link brings back scene, text and camera', async () => {
   assert.equal(written.text, kText);
   const flat = { type: 'orthographic', height: 7, position: [0, 9, 1], target: [0, 0, 0], up: [0, 0, -1] };
   assert.deepEqual((await decodeLink(await encodeLink({ scene: 'x', camera: flat }))).camera, flat);
+});
+
+test('a link holds every digit, and no sign that an address would change', async () => {
+  const cameras = [
+    { type: 'perspective', fov_y_deg: 40 / 3, position: [10000000.123456789, -7e6, 0.1 + 0.2], target: [1e7, -7e6, 1e-12 / 3], up: [0, 1, 0] },
+    { type: 'orthographic', height: 1e22 / 3, position: [2e29 / 3, -1e21, 5e-324], target: [0, 0, 1e15], up: [1e-30, -1, 0] },
+  ];
+  for (const camera of cameras) {
+    const link = await encodeLink({ scene: 'opening', camera });
+    assert.match(link, /^#scene=opening&camera=[hp](,-?[\d.]+(e-?\d+)?){10}$/);
+    assert.deepEqual((await decodeLink(link)).camera, camera);
+    assert.deepEqual((await decodeLink(new URL(link, 'http://localhost/').hash)).camera, camera);
+  }
+});
+
+test('a link from before, of five digits, is still read', async () => {
+  const { camera } = await decodeLink('#scene=cubes&camera=p,33,9.1234,4,2,0,1,0,0,1,0');
+  assert.deepEqual(camera, { type: 'perspective', fov_y_deg: 33, position: [9.1234, 4, 2], target: [0, 1, 0], up: [0, 1, 0] });
+});
+
+test('a camera that sees nothing is none', async () => {
+  for (const list of ['p,0,9,4,2,0,1,0,0,1,0', 'p,180,9,4,2,0,1,0,0,1,0', 'h,-1,9,4,2,0,1,0,0,1,0', 'p,33,9,4,2,9,4,2,0,1,0', 'p,33,9,4,2,0,1,0,0,0,0']) {
+    assert.equal((await decodeLink(`#camera=${list}`)).camera, null, list);
+  }
 });
 
 test('a broken link is no link, and one with a text that cannot be read is known as damaged', async () => {
