@@ -39,13 +39,13 @@ struct Body {
   MaterialId material = 0;
   uint32_t object = 0;                  // index into Scene::objects
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
-  bool is_solid = true;           // it has an inside
+  bool is_solid = true;                 // it has an inside
   bool is_turned = false;         // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
   bool may_touch_itself = false;  // a transparent mesh of several shells, or of shells that share edges
   Layer layer = Layer::opaque;
-  // Of surfaces in one place the one of the lowest rank is met first. Films come first, then what is opaque, by id, then
-  // media: the higher priority first, then the higher ior; then what else tells materials, shapes and placements apart,
-  // so that the order of a scene's objects does not count. No two bodies have the same.
+  // Of surfaces in one place the one of the lowest rank is met first. Films come first, then what is opaque, by id,
+  // then media: the higher priority first, then the higher ior; then what else tells materials, shapes and placements
+  // apart, so that the order of a scene's objects does not count. No two bodies have the same.
   uint32_t rank = 0;
   std::string name;  // "objects/3", or "objects/0/e4" for a man of a chess position
 };

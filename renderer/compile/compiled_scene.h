@@ -21,8 +21,8 @@ struct CompiledMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<Vec3> normals;                            // shared corner normals, unit
   std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
-  bool is_manifold = false, is_solid = false;  // see TriMesh
-  Mat4 mesh_from_local{1.0};     // undoes the normalisation
+  bool is_manifold = false, is_solid = false;           // see TriMesh
+  Mat4 mesh_from_local{1.0};                            // undoes the normalisation
   std::array<Box, 8> octants{};  // around the positions in each octant; together they fit closely
 
   int64_t memory_bytes() const;
@@ -41,7 +41,7 @@ struct CompiledBody {
   const CompiledMesh* mesh = nullptr;
   const TriangleTree* tree = nullptr;  // of the mesh, in local space; null: its triangles are in the scene's tree
   Vec3 half{1.0};
-  Vec3 rounding{0.0};         // of a box's faces, see Body; local units
+  Vec3 rounding{0.0};          // of a box's faces, see Body; local units
   double face_rounding = 0.0;  // the same across any of them, normalised units
   Mat4 local_from_world{1.0};
   Mat4 world_from_local{1.0};

@@ -19,8 +19,8 @@ struct Refraction {
 
 // Snell's law from a medium of index `ior_from` into one of `ior_to`, bent about `shading`. spread: the angle by which
 // that may be off the normal of the curved surface for which a facet stands, radians; 0 where the two normals are one.
-// A normal that faces away is met grazing; reflection is total beyond the critical angle plus the spread, and up to there
-// the ray leaves at the spread above the surface; what would stay under the facet is mirrored at it.
+// A normal that faces away is met grazing; reflection is total beyond the critical angle plus the spread, and up to
+// there the ray leaves at the spread above the surface; what would stay under the facet is mirrored at it.
 Refraction refracted(const Vec3& direction, const Vec3& geometric, const Vec3& shading, double spread, double ior_from,
                      double ior_to);
 

@@ -50,9 +50,7 @@ Interface make_interface(const ReferenceScene& scene, const MediaStack& media, c
     return v.entry ? out.beyond.top(scene) == v.body : out.here.top(scene) == v.body;
   };
   // A body that is thinner than numbers can tell is a thin one.
-  const auto is_thin = [&](const Visit& v) {
-    return v.entry && v.exit && out.here.with(v.body).top(scene) == v.body;
-  };
+  const auto is_thin = [&](const Visit& v) { return v.entry && v.exit && out.here.with(v.body).top(scene) == v.body; };
   auto shown = std::find_if(visits.begin(), visits.end(), is_bound);
   if (shown == visits.end()) shown = std::find_if(visits.begin(), visits.end(), is_thin);
   if (shown != visits.end()) out.shown = shown->entry ? shown->entry : shown->exit;

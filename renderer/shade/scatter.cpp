@@ -44,8 +44,8 @@ struct CurvedEdge {
 
 // Snell's law at a facet that stands for a curved surface, by the normal that is interpolated there. The facet lies
 // under that surface, where a ray that has come in grazing meets the normal at more than the critical angle, and would
-// go round for ever: in a ball of radius R its sine is as R / r of what it was, r the distance from the middle, and r / R
-// no less than cos(delta), delta the angle between the facet's normal and its corners'. So
+// go round for ever: in a ball of radius R its sine is as R / r of what it was, r the distance from the middle, and r /
+// R no less than cos(delta), delta the angle between the facet's normal and its corners'. So
 // - a normal that is turned from the ray is met grazing: the sine inside is 1 / n and no more;
 // - reflection is total only beyond the critical angle plus delta; nearer to it the ray leaves, at delta above the
 //   surface. In a ball that suffices: sin(critical + delta) >= sin(critical) / cos(delta) while critical + delta is no

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All surfaces in the place where a ray starts, by the exact tests: what walk-inl.h is for the nearest hit. Included once
-// for every instruction set.
+// All surfaces in the place where a ray starts, by the exact tests: what walk-inl.h is for the nearest hit. Included
+// once for every instruction set.
 #if defined(TILELIGHT_PLACE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TILELIGHT_PLACE_INL_H
 #undef TILELIGHT_PLACE_INL_H

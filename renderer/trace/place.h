@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PlaceCrosser: takes rays across the surfaces of media, all those in one place together: what lies on the near side and
-// what on the far side decides, not whose surface rounding or the order of the objects puts first. One thread.
+// PlaceCrosser: takes rays across the surfaces of media, all those in one place together: what lies on the near side
+// and what on the far side decides, not whose surface rounding or the order of the objects puts first. One thread.
 #pragma once
 
 #include <vector>

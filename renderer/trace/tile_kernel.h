@@ -380,6 +380,7 @@ class TileKernel {
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
   // ray gets no deeper.
   void pass_unseen(BoundedRay& ray, Path& path, Hit& hit, Crossing& crossing) {
+    crossing = {};
     while (hit.is_hit() && is_medium(scene_, hit.body) && !is_cancelled()) {
       crossing = crosser_.cross(ray.ray, path.media, hit);
       if (crossing.is_seen() || !is_medium(scene_, hit.body)) return;

@@ -21,8 +21,8 @@ void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std
 // The nearest hit with one body alone.
 Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray);
 
-// All surfaces that lie, within rounding, in one place with a point of the body `owner`, where the line through it meets
-// them; t counts from there. In no order.
+// All surfaces that lie, within rounding, in one place with a point of the body `owner`, where the line through it
+// meets them; t counts from there. In no order.
 void find_surfaces(const CompiledScene& scene, const Vec3& place, const Vec3& direction, uint32_t owner,
                    std::vector<Hit>& found);
 

@@ -417,7 +417,8 @@ class Walk {
     if (gap > tie_at(size)) return false;
     if (gap <= 0x1p-46 * size) return true;
     const CompiledBody &body_a = scene_.bodies[a.body], &body_b = scene_.bodies[b.body];
-    const double noise = 0x1p-46 * (std::max(reach_of(body_a), reach_of(body_b)) + size) + face_rounding(body_a, body_b);
+    const double noise =
+        0x1p-46 * (std::max(reach_of(body_a), reach_of(body_b)) + size) + face_rounding(body_a, body_b);
     if (gap > 0x1p20 * noise) return false;
     return gap <= noise || gap * std::max(steepness_at(a), steepness_at(b)) <= noise;
   }
@@ -441,11 +442,11 @@ class Walk {
   const Start start_;
   const double t_max_;
   Hit best_;
-  Hit front_;              // while ties are settled: the nearest hit
+  Hit front_;               // while ties are settled: the nearest hit
   bool goes_back_ = false;  // and the ray starts there, on its way back
-  bool has_tie_ = false;   // another hit may be in the same place as the best
-  uint32_t only_ = kNone;  // the one body that is asked for
-  Inside inside_;          // of the mesh that was asked last
+  bool has_tie_ = false;    // another hit may be in the same place as the best
+  uint32_t only_ = kNone;   // the one body that is asked for
+  Inside inside_;           // of the mesh that was asked last
 };
 
 }  // namespace HWY_NAMESPACE

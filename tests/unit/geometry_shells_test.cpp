@@ -14,7 +14,8 @@ void add_cube(MeshData& mesh, const Vec3& middle, double half, bool from_outside
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   for (int i = 0; i < 8; ++i)
     mesh.positions.push_back(middle + half * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-  constexpr uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& f : kFaces) {
     for (const auto& t : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
       const auto [a, b, c] = t;
@@ -63,9 +64,9 @@ TEST(Shells, ApartFromEachOtherAreTurnedEachByItself) {
 
 TEST(Shells, ThatAreCavitiesStay) {
   const Vec3 o(0.0);
-  EXPECT_EQ(turned_of({{o, 3, true}, {o, 2, false}}), (std::vector{0, 0}));               // hollow
-  EXPECT_EQ(turned_of({{o, 2, false}, {o, 3, true}}), (std::vector{0, 0}));               // in any order
-  EXPECT_EQ(turned_of({{o, 3, false}, {o, 2, true}}), (std::vector{12, 12}));             // hollow, inside out
+  EXPECT_EQ(turned_of({{o, 3, true}, {o, 2, false}}), (std::vector{0, 0}));    // hollow
+  EXPECT_EQ(turned_of({{o, 2, false}, {o, 3, true}}), (std::vector{0, 0}));    // in any order
+  EXPECT_EQ(turned_of({{o, 3, false}, {o, 2, true}}), (std::vector{12, 12}));  // hollow, inside out
   EXPECT_EQ(turned_of({{o, 3, true}, {o, 2, false}, {o, 1, true}}), (std::vector{0, 0, 0}));
   EXPECT_EQ(turned_of({{o, 3, true}, {o, 2, false}, {o, 1, false}}), (std::vector{0, 0, 12}));
   EXPECT_EQ(turned_of({{o, 3, true}, {Vec3(9, 0, 0), 1, false}, {o, 2, false}}), (std::vector{0, 12, 0}));
