@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/compile/bodies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "renderer/base/double_double.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/geometry/chess_set.h"
+#include "renderer/geometry/shells.h"
 
 namespace tilelight {
 namespace {
@@ -60,14 +62,21 @@ Vec3 rounding_of(const BoxShape& box, const Mat4& world_from_shape, const Mat4& 
   return out + distance_off(world_from_shape, 0.5 * (box.min + box.max), Vec3(world_from_local[3]));
 }
 
+struct GlassMesh {
+  std::shared_ptr<const TriMesh> mesh;  // wound outwards
+  bool has_volume = false, may_touch_itself = false;
+};
+
 class BodyMaker {
  public:
-  explicit BodyMaker(const Scene& scene) : scene_(scene), meshes_(scene.meshes.size()) {}
+  explicit BodyMaker(const Scene& scene)
+      : scene_(scene), meshes_(scene.meshes.size()), glass_meshes_(scene.meshes.size()) {}
 
   std::vector<Body> make() {
     for (index_ = 0; index_ < scene_.objects.size(); ++index_) {
       std::visit([this](const auto& shape) { place(shape); }, scene_.objects[index_].shape);
     }
+    set_ranks(scene_, bodies_);
     return std::move(bodies_);
   }
 
@@ -95,14 +104,38 @@ class BodyMaker {
     Body& body = add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part);
     body.half = 0.5 * (box.max - box.min);
     body.rounding = rounding_of(box, object().world_from_shape, body.world_from_local);
+    body.is_solid = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
   }
 
-  void place(const PlaneShape& plane) { add(BodyKind::plane, frame_of_plane(plane), object().material); }
+  void place(const PlaneShape& plane) {
+    add(BodyKind::plane, frame_of_plane(plane), object().material).is_solid = false;
+  }
 
   void place(const MeshShape& shape) {
     auto& mesh = meshes_[shape.mesh];
     if (!mesh) mesh = std::make_shared<const TriMesh>(make_tri_mesh(scene_.meshes[shape.mesh]));
-    add(BodyKind::mesh, Mat4(1.0), object().material).mesh = mesh;
+    Body& body = add(BodyKind::mesh, Mat4(1.0), object().material);
+    body.mesh = mesh;
+    body.is_solid = mesh->closed;
+    if (!mesh->closed || scene_.materials[body.material].transmission == Color(0.0)) return;
+    const GlassMesh& glass = glass_mesh(shape.mesh);
+    body.mesh = glass.mesh;
+    body.is_solid = glass.has_volume;
+    body.is_turned = glass.mesh != mesh;
+    body.may_touch_itself = glass.may_touch_itself;
+  }
+
+  // A closed mesh as transparent bodies wear it: light is bent by which side is the inner one.
+  const GlassMesh& glass_mesh(uint32_t index) {
+    GlassMesh& glass = glass_meshes_[index];
+    if (glass.mesh) return glass;
+    const auto& mesh = meshes_[index];
+    const Shells shells = find_shells(*mesh);
+    glass.has_volume = holds_volume(shells);
+    glass.may_touch_itself = !mesh->is_manifold || shells.volume.size() > 1;
+    const std::vector<bool> is_turned = find_inside_out(*mesh, shells);
+    glass.mesh = is_turned.empty() ? mesh : std::make_shared<const TriMesh>(with_turned(*mesh, is_turned));
+    return glass;
   }
 
   void place(const ChessPieceShape& shape) {
@@ -151,6 +184,7 @@ class BodyMaker {
   size_t index_ = 0;
   std::vector<Body> bodies_;
   std::vector<std::shared_ptr<const TriMesh>> meshes_;  // by Scene::meshes
+  std::vector<GlassMesh> glass_meshes_;                 // likewise
   std::map<std::pair<Piece, int>, std::shared_ptr<const TriMesh>> pieces_;
   std::shared_ptr<const TriMesh> frame_;
 };

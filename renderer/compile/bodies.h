@@ -19,6 +19,13 @@ enum class BodyKind : uint8_t {
   mesh     // triangles of *mesh
 };
 
+// What a body is where surfaces lie in one place.
+enum class Layer : uint8_t {
+  film,    // transparent and without an inside: planes, open meshes, flat boxes
+  opaque,  // lets no light through
+  medium   // transparent, with an inside
+};
+
 struct Body {
   BodyKind kind = BodyKind::sphere;
   Mat4 world_from_local{1.0};  // never singular
@@ -32,10 +39,21 @@ struct Body {
   MaterialId material = 0;
   uint32_t object = 0;                  // index into Scene::objects
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
-  std::string name;                     // "objects/3", or "objects/0/e4" for a man of a chess position
+  bool is_solid = true;                 // it has an inside
+  bool is_turned = false;         // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
+  bool may_touch_itself = false;  // a transparent mesh of several shells, or of shells that share edges
+  Layer layer = Layer::opaque;
+  // Of surfaces in one place the one of the lowest rank is met first. Films come first, then what is opaque, by id,
+  // then media: the higher priority first, then the higher ior; then what else tells materials, shapes and placements
+  // apart, so that the order of a scene's objects does not count. No two bodies have the same.
+  uint32_t rank = 0;
+  std::string name;  // "objects/3", or "objects/0/e4" for a man of a chess position
 };
 
-// Ids of bodies are their places in this list; ties between surfaces go to the lower id.
+// Ids of bodies are their places in this list.
 std::vector<Body> make_bodies(const Scene& scene);
+
+// Sets layer and rank. REQUIRES: everything else; materials of the scene.
+void set_ranks(const Scene& scene, std::vector<Body>& bodies);
 
 }  // namespace tilelight

@@ -37,10 +37,11 @@ std::shared_ptr<const CompiledScene> compile_scene(const Scene& scene, TilePool&
   out->radiance_bound = find_radiance_bound(*out);
   out->plan.features = find_features(*out, left_out);
   build_trees(pool, *out);
+  find_touching_media(*out);
 
   Plan& plan = out->plan;
   plan.left_out.insert(plan.left_out.end(), left_out.begin(), left_out.end());
-  plan.warnings = find_open_glass(bodies, *out);
+  plan.warnings = find_odd_glass(bodies);
   plan.stiffness = find_stiffness(*out);
   plan.lights = static_cast<int64_t>(out->lights.size());
   plan.memory_bytes += static_cast<int64_t>(sizeof(CompiledScene) + out->bodies.size() * sizeof(CompiledBody));

@@ -38,7 +38,7 @@ std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh) {
   Box bounds;
   for (const Vec3& p : mesh.positions) bounds.grow(p);
   const Normalisation n = normalise(bounds);
-  out->closed = mesh.closed;
+  out->is_manifold = mesh.is_manifold;
   out->is_solid = mesh.is_solid;
   out->mesh_from_local = n.user_from_normalised();
   out->triangles = mesh.triangles;

@@ -26,11 +26,14 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out);
 // What the kernel has to do for this scene, and the reasons for what it need not do.
 FeatureSet find_features(const CompiledScene& scene, LeftOutList& left_out);
 
-// Glass without an inside: open meshes whose material transmits. One warning a body.
-std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const CompiledScene& scene);
+// Transparent meshes without an inside, and those that were wound inside out. One warning a body.
+std::vector<SceneWarning> find_odd_glass(const std::vector<Body>& bodies);
 
 // The scene's tree over the finite bodies, and the trees of meshes that keep one of their own.
 void build_trees(TilePool& pool, CompiledScene& out);
+
+// Sets may_touch_media: where rays have to ask what else lies in the place of a surface. REQUIRES: the trees.
+void find_touching_media(CompiledScene& scene);
 
 // The largest part of the light that reaches a surface which it mirrors or lets through, every channel.
 double find_passed_on(const CompiledScene& scene);

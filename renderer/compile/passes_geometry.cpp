@@ -119,20 +119,6 @@ void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_normal = glm::determinant(unit) < 0.0 ? -cofactor(unit) : cofactor(unit);
 }
 
-bool encloses(const Body& body) {
-  switch (body.kind) {
-    case BodyKind::sphere:
-      return true;
-    case BodyKind::box:
-      return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
-    case BodyKind::mesh:
-      return body.mesh->closed;
-    case BodyKind::plane:
-      return false;
-  }
-  return false;
-}
-
 }  // namespace
 
 Box body_bounds(const CompiledBody& body) { return bounds_in(body, body.world_from_local); }
@@ -187,7 +173,10 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
       CompiledBody c;
       c.kind = body.kind;
       c.has_solid_pattern = body.kind == BodyKind::sphere;
-      c.closed = encloses(body);
+      c.closed = body.is_solid;
+      c.may_touch_itself = body.may_touch_itself;
+      c.layer = body.layer;
+      c.rank = body.rank;
       c.material = body.material;
       c.body = static_cast<uint32_t>(i);
       c.half = body.half;
@@ -226,6 +215,7 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
     set_world(body, normalised(source, body.mesh, out.center, out.units));
     for (int column = 0; column < 3; ++column)
       body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (source.rounding[column] / out.units);
+    body.face_rounding = std::max({source.rounding.x, source.rounding.y, source.rounding.z}) / out.units;
   }
   out.plan.bodies = static_cast<int64_t>(out.bodies.size());
   out.plan.bounds_min = bounds.lo;

@@ -116,13 +116,23 @@ std::vector<CompiledLight> drop_dead_lights(const Scene& scene, const std::vecto
   return kept;
 }
 
-std::vector<SceneWarning> find_open_glass(const std::vector<Body>& bodies, const CompiledScene& scene) {
+std::vector<SceneWarning> find_odd_glass(const std::vector<Body>& bodies) {
   std::vector<SceneWarning> warnings;
   for (const Body& body : bodies) {
-    if (body.kind != BodyKind::mesh || body.mesh->closed || !scene.materials[body.material].is_transmissive) continue;
-    warnings.push_back({"/objects/" + std::to_string(body.object), "open_glass",
-                        "the mesh is open and its material transparent: without an inside it bends no light, as if it "
-                        "were thin"});
+    if (body.kind != BodyKind::mesh || body.layer == Layer::opaque) continue;
+    const std::string pointer = "/objects/" + std::to_string(body.object);
+    if (!body.is_solid) {
+      warnings.push_back(
+          {pointer, "open_glass",
+           std::string(body.mesh->closed ? "the mesh encloses no volume" : "the mesh is open") +
+               " and its material transparent: without an inside it bends no light, as if it were thin"});
+    } else if (body.is_turned) {
+      warnings.push_back(
+          {pointer, "inside_out_glass",
+           "the mesh is transparent and wound inside out, as a whole or in some of its shells (their "
+           "signed volume is negative): it is drawn as if these triangles were wound the other way; name "
+           "their corners counter-clockwise as seen from outside"});
+    }
   }
   return warnings;
 }

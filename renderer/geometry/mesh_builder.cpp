@@ -67,7 +67,8 @@ TriMesh MeshBuilder::finish() const {
     mesh.corner_normals.push_back({facing(corners_[i].normal, facet), facing(corners_[i + 1].normal, facet),
                                    facing(corners_[i + 2].normal, facet)});
   }
-  mesh.closed = mesh.is_solid = is_closed(mesh);
+  find_closure(mesh);
+  mesh.is_solid = mesh.is_manifold;
   return mesh;
 }
 

@@ -23,6 +23,14 @@ void set_given_normals(TriMesh& mesh, const MeshData& data, const std::vector<ui
   }
 }
 
+// Wound the same way both times.
+bool has_facet_twice(const TriMesh& mesh) {
+  std::vector<std::array<uint32_t, 3>> facets = mesh.triangles;
+  for (auto& facet : facets) std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+  std::sort(facets.begin(), facets.end());
+  return std::adjacent_find(facets.begin(), facets.end()) != facets.end();
+}
+
 }  // namespace
 
 TriMesh make_tri_mesh(const MeshData& data) {
@@ -49,26 +57,28 @@ TriMesh make_tri_mesh(const MeshData& data) {
     set_crease_normals(mesh, data.crease_deg);
   else
     set_given_normals(mesh, data, source_triangles);
-  mesh.closed = is_closed(mesh);
+  find_closure(mesh);
   return mesh;
 }
 
-bool is_closed(const TriMesh& mesh) {
+void find_closure(TriMesh& mesh) {
+  mesh.closed = mesh.is_manifold = false;
   std::vector<uint64_t> edges, opposites;
   edges.reserve(3 * mesh.triangles.size());
   opposites.reserve(3 * mesh.triangles.size());
   for (const auto& tri : mesh.triangles) {
     for (size_t k = 0; k < 3; ++k) {
       const uint64_t from = tri[k], to = tri[(k + 1) % 3];
-      if (from == to) return false;
+      if (from == to) return;
       edges.push_back(from << 32 | to);
       opposites.push_back(to << 32 | from);
     }
   }
   std::sort(edges.begin(), edges.end());
-  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
   std::sort(opposites.begin(), opposites.end());
-  return !edges.empty() && edges == opposites;
+  if (edges.empty() || edges != opposites) return;
+  mesh.is_manifold = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+  mesh.closed = mesh.is_manifold || !has_facet_twice(mesh);
 }
 
 }  // namespace tilelight

@@ -83,7 +83,8 @@ class Sample {
  private:
   void follow(const PathRay& start) {
     PathRay path = start;
-    const auto hit = first_visible(path);
+    MediaStack beyond;
+    const auto hit = first_visible(path, beyond);
     if (log_) log(start, hit);
     if (!hit) {
       pixel_.color += path.weight * background_at(scene_.background(), path.ray.direction);
@@ -94,58 +95,59 @@ class Sample {
     const ShadingPoint at = shading_point(body, *hit, path.ray.direction);
     pixel_.color += path.weight * local_light(scene_, at, render_);
     note_checker(path, *hit);
-    spawn(path, at);
+    spawn(path, at, beyond);
   }
 
-  // The media on the inner side of a medium's surface. One that is left without having been entered counts as entered.
-  static MediaStack media_inside(const PathRay& path, const ShadingPoint& at) {
-    return at.is_inside && path.media.contains(at.hit.body) ? path.media : path.media.with(at.hit.body);
-  }
-
-  // The first surface that is there: where another medium fills the inner side, the surface is passed through, unbent.
-  std::optional<Hit> first_visible(PathRay& path) {
+  // The first surface that is there: a place with the same medium on both sides is passed through, unbent. path.media
+  // become those before it, `beyond` those behind.
+  std::optional<Hit> first_visible(PathRay& path, MediaStack& beyond) {
     while (const auto hit = scene_.nearest(path.ray)) {
+      beyond = path.media;
       if (!scene_.is_medium(hit->body)) return hit;
-      const ShadingPoint at = shading_point(scene_.body(hit->body), *hit, path.ray.direction);
-      const MediaStack inside = media_inside(path, at);
-      if (inside.top(scene_) == hit->body) return hit;
-      path.media = at.is_inside ? inside.without(hit->body) : inside;
-      path.ray = scene_.ray_from(*hit, path.ray.direction, Coincident::after);
+      const std::vector<Hit> surfaces = scene_.surfaces_at(path.ray, *hit);
+      if (!scene_.is_medium(surfaces[0].body)) return surfaces[0];
+      Interface interface = make_interface(scene_, path.media, surfaces, path.ray.direction);
+      path.media = interface.shown ? interface.here : interface.beyond;
+      beyond = std::move(interface.beyond);
+      if (interface.shown) return interface.shown;
+      path.ray = scene_.ray_from(*hit, path.ray.direction, Coincident::none);
     }
     return std::nullopt;
   }
 
-  void spawn(const PathRay& path, const ShadingPoint& at) {
+  void spawn(const PathRay& path, const ShadingPoint& at, const MediaStack& beyond) {
     const Material& material = scene_.material(at.hit.body);
     Color kr = material.reflection, kt = material.transmission;
     if (largest(kr) <= 0.0 && largest(kt) <= 0.0) return;
-    MediaStack here = path.media, beyond = path.media;
     double ior_from = 1.0, ior_to = 1.0;  // alike for thin bodies: straight on
+    Coincident onward = Coincident::none, back = Coincident::before;
     if (scene_.is_medium(at.hit.body)) {
-      const MediaStack inside = media_inside(path, at);
-      if (at.is_inside) here = inside;
-      beyond = at.is_inside ? inside.without(at.hit.body) : inside;
-      ior_from = here.ior(scene_), ior_to = beyond.ior(scene_);
+      ior_from = path.media.ior(scene_), ior_to = beyond.ior(scene_);
+    } else if (largest(kt) > 0.0) {
+      const bool goes_back = path.ray.coincident == Coincident::before && scene_.is_at_start(path.ray, at.hit);
+      onward = goes_back ? Coincident::before : Coincident::after;
+      back = goes_back ? Coincident::after : Coincident::before;
     }
-    const Refraction through = refracted(path.ray.direction, at.geometric, at.shading, ior_from, ior_to);
+    const auto through_of = [&](const Vec3& d, const ShadingPoint& s) {
+      return refracted(d, s.geometric, s.shading, facet_spread(scene_.body(s.hit.body), s.hit), ior_from, ior_to);
+    };
+    const Refraction through = through_of(path.ray.direction, at);
     if (material.fresnel && scene_.is_medium(at.hit.body)) {
       kr *= through.fresnel, kt *= 1.0 - through.fresnel;
     } else if (!through.direction) {
       kr += kt, kt = Color(0.0);
     }
     const Vec3 mirror = reflected(path.ray.direction, at.geometric, at.shading);
-    push(path, at, ReferenceRayKind::reflected, kr, mirror, std::move(here),
+    push(path, at, ReferenceRayKind::reflected, kr, mirror, path.media, back,
          [](const Vec3& d, const ShadingPoint& s) { return std::optional(reflected(d, s.geometric, s.shading)); });
-    push(path, at, ReferenceRayKind::refracted, kt, through.direction.value_or(mirror), std::move(beyond),
-         [&](const Vec3& d, const ShadingPoint& s) {
-           return refracted(d, s.geometric, s.shading, ior_from, ior_to).direction;
-         });
+    push(path, at, ReferenceRayKind::refracted, kt, through.direction.value_or(mirror), beyond, onward,
+         [&](const Vec3& d, const ShadingPoint& s) { return through_of(d, s).direction; });
   }
 
   // Queues a child ray if depth, weight and budget allow it. `turn` gives the neighbours' new directions.
   template <class Turn>
   void push(const PathRay& path, const ShadingPoint& at, ReferenceRayKind kind, const Color& k, const Vec3& direction,
-            MediaStack media, Turn turn) {
+            MediaStack media, Coincident coincident, Turn turn) {
     const Color weight = path.weight * k;
     if (largest(weight) <= 0.0) return;
     if (path.depth >= render_.max_depth || largest(weight) < render_.weight_cutoff || spawned_ >= render_.ray_budget) {
@@ -154,8 +156,7 @@ class Sample {
     }
     ++spawned_;
     PathRay child{.kind = kind, .depth = path.depth + 1, .weight = weight, .media = std::move(media)};
-    const bool goes_on = kind == ReferenceRayKind::refracted;
-    child.ray = scene_.ray_from(at.hit, direction, goes_on ? Coincident::after : Coincident::before);
+    child.ray = scene_.ray_from(at.hit, direction, coincident);
     child.neighbours = turned(path.neighbours, at, turn);
     queue_.push_back(std::move(child));
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/base/elementary.h"
+
 namespace tilelight::reference {
 namespace {
 
@@ -15,20 +17,6 @@ const std::array<uint32_t, 3>& corners(const TriMesh& mesh, uint32_t triangle) {
 int dominant_axis(const Vec3& v) {
   const Vec3 a = glm::abs(v);
   return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-}
-
-bool is_solid_body(const Body& body) {
-  switch (body.kind) {
-    case BodyKind::sphere:
-      return true;
-    case BodyKind::box:
-      return std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
-    case BodyKind::plane:
-      return false;
-    case BodyKind::mesh:
-      return body.mesh->closed;
-  }
-  return false;
 }
 
 Box world_bounds(const ReferenceBody& body) {
@@ -174,9 +162,12 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       pattern_normal_from_local(glm::transpose(glm::inverse(Mat3(body.pattern_from_local)))),
       material(body.material),
       mesh(std::move(mesh_tree)),
-      is_solid(is_solid_body(body)),
+      is_solid(body.is_solid),
+      layer(body.layer),
+      rank(body.rank),
       bounds(world_bounds(*this)),
-      extent(kind == BodyKind::plane ? largest(translation) : std::max(largest(bounds.lo), largest(bounds.hi))) {
+      extent(kind == BodyKind::plane ? largest(translation) : std::max(largest(bounds.lo), largest(bounds.hi))),
+      face_rounding(largest(body.rounding)) {
   bounds = bounds.padded(extent * kRounding);
 }
 
@@ -222,6 +213,18 @@ std::optional<Hit> triangle_hit(const TriMesh& mesh, uint32_t body, uint32_t tri
 
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit) {
   return glm::normalize(body.normal_from_local * local_normal(body, hit));
+}
+
+double facet_spread(const ReferenceBody& body, const Hit& hit) {
+  if (body.kind != BodyKind::mesh || body.mesh->mesh->corner_normals.empty()) return 0.0;
+  const Vec3 facet = geometric_normal(body, hit);
+  double spread = 0.0;
+  for (const Vec3& corner : body.mesh->mesh->corner_normals[hit.primitive]) {
+    const Vec3 n = glm::normalize(body.normal_from_local * corner);
+    const double angle = elementary::atan2(glm::length(glm::cross(facet, n)), std::fabs(glm::dot(facet, n)));
+    spread = std::max(spread, angle);
+  }
+  return spread;
 }
 
 SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit) {

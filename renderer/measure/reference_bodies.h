@@ -28,9 +28,9 @@ struct Hit {
   Vec3 barycentric{0.0};   // meshes
 };
 
-// What a ray that starts on a surface does with other bodies' surfaces in the very same place (a glass foot standing on
-// a board). Coincident surfaces are crossed in the order of their ids: on the way on, those after the one just left;
-// on the way back, those before it.
+// What a ray that starts on a surface does with other bodies' surfaces in the very same place. They lie there in the
+// order of Body::rank: films, opaque things, media. On the way on from a film those after it are met, on the way back
+// the films before it. Media in one place are crossed together: a ray that goes on from them meets none.
 enum class Coincident { none, after, before };
 
 struct Ray {
@@ -60,8 +60,11 @@ struct ReferenceBody {
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
   bool is_solid;  // has an inside: light can be bent on its way in and out
-  Box bounds;     // world space; infinite for planes
-  double extent;  // largest coordinate of the bounds; planes: of their point
+  Layer layer;
+  uint32_t rank;
+  Box bounds;            // world space; infinite for planes
+  double extent;         // largest coordinate of the bounds; planes: of their point
+  double face_rounding;  // how far a face may lie from where the document puts it
 
   Vec3 local_point(const Vec3& world) const { return local_from_world * (world - translation); }
   Vec3 world_point(const Vec3& local) const { return world_from_local * local + translation; }
@@ -80,6 +83,8 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit);
 // Ray Tracing Gems II ch. 4). A world vector; none on other surfaces.
 std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, bool is_inside);
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit);
+// The largest angle between a facet's normal and those given to its corners, radians; 0 on other surfaces.
+double facet_spread(const ReferenceBody& body, const Hit& hit);
 
 // The colour's place in the body's checker: the pattern point, and the axis that does not count (-1: all three do).
 struct PatternPoint {

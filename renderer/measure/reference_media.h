@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "renderer/measure/reference_scene.h"
@@ -48,5 +49,15 @@ class MediaStack {
  private:
   std::vector<uint32_t> bodies_;  // in the order of entering
 };
+
+// A place where a ray meets the surfaces of media, crossed as a whole: what is on this side, what is beyond, and which
+// surface is the interface between the two. None: the same medium is on both sides.
+struct Interface {
+  MediaStack here, beyond;
+  std::optional<Hit> shown;
+};
+// surfaces: of media, all in one place, by rank.
+Interface make_interface(const ReferenceScene& scene, const MediaStack& media, const std::vector<Hit>& surfaces,
+                         const Vec3& direction);
 
 }  // namespace tilelight::reference

@@ -69,34 +69,100 @@ Ray ReferenceScene::ray_from(const Hit& left, const Vec3& direction, Coincident 
   return {origin, direction, left, coincident, kRounding * std::max(largest(origin), body.extent)};
 }
 
-// Whether a hit lies ahead of the ray's start. Where the start itself lies on the hit surface within rounding, the
-// order of ids decides instead of the sign of t.
-bool ReferenceScene::is_ahead(const Ray& ray, const Hit& hit) const {
-  if (ray.left.body == kNoBody) return hit.t > 0.0;
-  if (std::fabs(hit.t) > ray.noise * kGraze) return hit.t > 0.0;
-  const ReferenceBody& body = bodies_[hit.body];
-  if (std::fabs(hit.t) * steepness(body, hit, ray.direction) > ray.noise) return hit.t > 0.0;
-  if (hit.body == ray.left.body) return false;
+// What the rounding of boxes' faces may put between two surfaces that the document has in one place.
+double ReferenceScene::rounding_between(uint32_t a, uint32_t b) const {
+  if (!is_transmissive_[a] && !is_transmissive_[b]) return 0.0;
+  return bodies_[a].face_rounding + bodies_[b].face_rounding;
+}
+
+bool ReferenceScene::is_at_start(const Ray& ray, const Hit& hit) const {
+  if (ray.left.body == kNoBody || std::fabs(hit.t) > ray.noise * kGraze) return false;
+  const double noise = ray.noise + rounding_between(hit.body, ray.left.body);
+  return std::fabs(hit.t) * steepness(bodies_[hit.body], hit, ray.direction) <= noise;
+}
+
+bool ReferenceScene::is_met_at_start(const Ray& ray, uint32_t id) const {
+  if (id == ray.left.body) return false;
+  const ReferenceBody &body = bodies_[id], &left = bodies_[ray.left.body];
   switch (ray.coincident) {
     case Coincident::none:
       return false;
     case Coincident::after:
-      return hit.body > ray.left.body;
+      return body.rank > left.rank;
     case Coincident::before:
-      return hit.body < ray.left.body;
+      return body.layer == Layer::film && body.rank < left.rank;
   }
   return false;
 }
 
-// The order in which surfaces are met: by distance, and by id where the distances are the same within rounding.
+// Whether a hit lies ahead of the ray's start. Where the start itself lies on the hit surface within rounding, the
+// order of layers decides instead of the sign of t.
+bool ReferenceScene::is_ahead(const Ray& ray, const Hit& hit) const {
+  return is_at_start(ray, hit) ? is_met_at_start(ray, hit.body) : hit.t > 0.0;
+}
+
+// The order in which surfaces are met: by distance, and by rank where the distances are the same within rounding; the
+// other way round on the way back through films.
 bool ReferenceScene::is_before(const Ray& ray, const Hit& hit, const Hit& best) const {
-  const double noise = kRounding * (largest(ray.origin) + std::fabs(best.t));
+  const double rounding = rounding_between(hit.body, best.body);
+  const double noise = kRounding * (largest(ray.origin) + std::fabs(best.t)) + rounding;
   const double gap = std::fabs(hit.t - best.t);
   if (gap > noise * kGraze) return hit.t < best.t;
   const double slope =
       std::max(steepness(bodies_[hit.body], hit, ray.direction), steepness(bodies_[best.body], best, ray.direction));
   if (gap * slope > noise) return hit.t < best.t;
-  return hit.body != best.body ? hit.body < best.body : hit.primitive < best.primitive;
+  if (hit.body == best.body) return hit.primitive < best.primitive;
+  const bool goes_back = ray.coincident == Coincident::before && is_at_start(ray, best);
+  return (bodies_[hit.body].rank < bodies_[best.body].rank) != goes_back;
+}
+
+std::vector<Hit> ReferenceScene::surfaces_at(const Ray& ray, const Hit& hit) const {
+  const ReferenceBody& owner = bodies_[hit.body];
+  const Vec3 place = owner.world_point(hit.local);
+  const double noise = kRounding * std::max(largest(place), owner.extent), reach = noise * kGraze;
+  const Ray through{.origin = place, .direction = ray.direction};
+  std::vector<Hit> found;
+  const auto offer = [&](Hit other) {
+    const double across = std::fabs(other.t) * steepness(bodies_[other.body], other, ray.direction);
+    if (std::fabs(other.t) > reach || across > noise + rounding_between(other.body, hit.body)) return;
+    if (other.body == hit.body && other.primitive == hit.primitive) return;
+    other.t += hit.t;
+    const bool is_left = other.body == ray.left.body && other.primitive == ray.left.primitive;
+    if (!is_left && (!is_at_start(ray, other) || is_met_at_start(ray, other.body))) found.push_back(other);
+  };
+  const auto ask = [&](uint32_t id) {
+    const ReferenceBody& body = bodies_[id];
+    if (body.kind != BodyKind::mesh) {
+      const reference::AnalyticHits hits = analytic_hits(body, id, through);
+      for (int i = 0; i < hits.count; ++i) offer(hits.hits[i]);
+      return false;
+    }
+    const ShearedRay local(body.local_point(place), body.local_from_world * ray.direction);
+    body.mesh->tree.visit(local.origin, local.direction, -reach, reach, [&](uint32_t triangle) {
+      if (const auto met = triangle_hit(*body.mesh->mesh, id, triangle, local)) offer(*met);
+      return false;
+    });
+    return false;
+  };
+  found.push_back(hit);
+  for (const Group* group : {&opaque_, &transmissive_}) {
+    for (const uint32_t id : group->infinite) ask(id);
+    group->tree.visit(place, ray.direction, -reach, reach, [&](uint32_t i) { return ask(group->finite[i]); });
+  }
+  std::sort(found.begin(), found.end(), [&](const Hit& a, const Hit& b) {
+    return a.body != b.body ? bodies_[a.body].rank < bodies_[b.body].rank : a.primitive < b.primitive;
+  });
+  return found;
+}
+
+double ReferenceScene::way_through(const Hit& hit, const Vec3& direction) const {
+  const Ray ray = ray_from(hit, direction, Coincident::none);
+  double nearest = kInfinity;
+  offer_body(hit.body, ray, nearest, [&](const Hit& other) {
+    nearest = std::min(nearest, other.t);
+    return false;
+  });
+  return nearest;
 }
 
 template <class Offer>
@@ -143,6 +209,19 @@ std::optional<Hit> ReferenceScene::nearest(const Ray& ray) const {
   return best;
 }
 
+// Of surfaces in one place. Facets of a body that meet where the ray does are crossed once each way.
+Color ReferenceScene::tint_of(const std::vector<Hit>& surfaces, const Vec3& direction) const {
+  Color product(1.0);
+  std::vector<std::pair<uint32_t, bool>> crossed;
+  for (const Hit& hit : surfaces) {
+    const std::pair way(hit.body, glm::dot(geometric_normal(bodies_[hit.body], hit), direction) < 0.0);
+    if (std::find(crossed.begin(), crossed.end(), way) != crossed.end()) continue;
+    crossed.push_back(way);
+    product *= material(hit.body).transmission;
+  }
+  return product;
+}
+
 Color ReferenceScene::transmittance(const Ray& from, double distance) const {
   const bool is_blocked =
       offer_group(opaque_, from, distance, [&](const Hit& hit) { return hit.t < distance - from.noise; });
@@ -154,12 +233,16 @@ Color ReferenceScene::transmittance(const Ray& from, double distance) const {
     double t_max = distance;
     find_nearest(transmissive_, ray, hit, t_max);
     if (!hit || hit->t >= distance - ray.noise) break;
-    passed *= material(hit->body).transmission;
-    // A surface in the very place of the start was crossed on the way back; others there have been dealt with.
-    const bool was_coincident = hit->t <= ray.noise;
+    Coincident onward = Coincident::none;
+    if (is_medium(hit->body)) {
+      passed *= tint_of(surfaces_at(ray, *hit), ray.direction);
+    } else {
+      passed *= material(hit->body).transmission;
+      const bool goes_back = ray.coincident == Coincident::before && is_at_start(ray, *hit);
+      onward = goes_back ? Coincident::before : Coincident::after;
+    }
     distance -= hit->t;
-    ray = ray_from(*hit, ray.direction,
-                   was_coincident && ray.coincident == Coincident::before ? Coincident::none : Coincident::after);
+    ray = ray_from(*hit, ray.direction, onward);
   }
   return passed;
 }
@@ -171,7 +254,9 @@ std::vector<uint32_t> ReferenceScene::media_around(const Vec3& point) const {
     if (!is_medium(id)) continue;
     if (const auto exit = exit_distance(bodies_[id], point, direction)) found.emplace_back(-*exit, id);
   }
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : bodies_[a.second].rank < bodies_[b.second].rank;
+  });
   std::vector<uint32_t> ids;
   for (const auto& [order, id] : found) ids.push_back(id);
   return ids;

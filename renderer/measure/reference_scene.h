@@ -28,9 +28,19 @@ class ReferenceScene {
   // A ray that starts on the surface `left`.
   reference::Ray ray_from(const reference::Hit& left, const Vec3& direction, reference::Coincident coincident) const;
 
-  // The first surface on the ray. Surfaces closer together than rounding can tell are one place: the lowest body id,
-  // then the lowest triangle, is the one that is seen.
+  // The first surface on the ray. Surfaces closer together than rounding can tell are one place: the lowest rank, then
+  // the lowest triangle, is the one that is seen.
   std::optional<reference::Hit> nearest(const reference::Ray& ray) const;
+
+  // All surfaces in the place of a hit, it among them, by rank; without those that the ray has dealt with where it
+  // started.
+  std::vector<reference::Hit> surfaces_at(const reference::Ray& ray, const reference::Hit& hit) const;
+
+  // How far it is from a hit through the body to its next surface.
+  double way_through(const reference::Hit& hit, const Vec3& direction) const;
+
+  // Whether a hit lies where the ray starts, within rounding.
+  bool is_at_start(const reference::Ray& ray, const reference::Hit& hit) const;
 
   // The part of the light that comes through along the ray from `distance` away: 0 behind an opaque surface, else the
   // product of kt over the surfaces crossed, unrefracted.
@@ -50,6 +60,9 @@ class ReferenceScene {
   template <class Offer>
   bool offer_group(const Group& group, const reference::Ray& ray, const double& t_max, Offer offer) const;
   bool is_ahead(const reference::Ray& ray, const reference::Hit& hit) const;
+  bool is_met_at_start(const reference::Ray& ray, uint32_t id) const;
+  Color tint_of(const std::vector<reference::Hit>& surfaces, const Vec3& direction) const;
+  double rounding_between(uint32_t a, uint32_t b) const;
   bool is_before(const reference::Ray& ray, const reference::Hit& hit, const reference::Hit& best) const;
   void find_nearest(const Group& group, const reference::Ray& ray, std::optional<reference::Hit>& best,
                     double& t_max) const;

@@ -95,11 +95,11 @@ RasterScene::RasterScene(const CompiledScene& scene, const ViewPlan& plan, TileP
       windows_across_((plan.view.image.width + kWindowPx - 1) / kWindowPx),
       windows_down_((plan.view.image.height + kWindowPx - 1) / kWindowPx) {
   constexpr uint32_t kChunkTriangles = 4096;
-  std::vector<uint32_t> by_id(scene.bodies.size());
-  std::iota(by_id.begin(), by_id.end(), 0u);
-  std::sort(by_id.begin(), by_id.end(),
-            [&](uint32_t a, uint32_t b) { return scene.bodies[a].body < scene.bodies[b].body; });
-  for (const uint32_t body : by_id) {
+  std::vector<uint32_t> by_rank(scene.bodies.size());
+  std::iota(by_rank.begin(), by_rank.end(), 0u);
+  std::sort(by_rank.begin(), by_rank.end(),
+            [&](uint32_t a, uint32_t b) { return scene.bodies[a].rank < scene.bodies[b].rank; });
+  for (const uint32_t body : by_rank) {
     const uint32_t count = triangle_count(scene.bodies[body]);
     counts_.triangles += scene.bodies[body].kind == BodyKind::plane ? 0 : count;
     for (uint32_t first = 0; first < count; first += kChunkTriangles)

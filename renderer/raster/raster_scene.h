@@ -36,12 +36,12 @@ struct RasterPrim {
   bool is_plane = false;
   TileRect box;                 // pixels that it may meet
   uint32_t body = 0, prim = 0;  // as a Hit has them
-  uint32_t order = 0;           // its place among all, by id
+  uint32_t order = 0;           // its place among all, by rank of the body
 };
 
 // The sample rule: of the primitives that cover a sample, each is surely as near as one number and maybe as near as
 // another. The front is the largest nearness that some primitive surely has; of those that may be as near, all in one
-// place for what numbers can tell, the lowest id (public id of the body, then primitive) is seen. No order matters.
+// place for what numbers can tell, the lowest rank (CompiledBody::rank, then primitive) is seen. No order matters.
 // x, y: the sample, in steps of the grid.
 bool covers(const RasterPrim& prim, double x, double y);
 inline double value_at(const Affine& f, double x, double y) { return f.at[0] + f.at[1] * x + f.at[2] * y; }
@@ -52,7 +52,7 @@ inline double maybe_as_near(const RasterPrim& prim, double nearness) {
   return std::clamp(nearness + prim.slack, prim.least, prim.most);
 }
 // The sample rule, by looking at every primitive: the place in the list of the one that is seen; kNone: none. REQUIRES:
-// a list in the order of ids.
+// a list in the order of ranks.
 uint32_t seen_at(std::span<const RasterPrim* const> prims, double x, double y);
 
 // What making one has counted.
@@ -81,13 +81,13 @@ class RasterScene {
   const RasterCounts& counts() const { return counts_; }
   int64_t memory_bytes() const;
 
-  // The primitives that may meet a window, in the order of their ids. x, y: its pixels over kWindowPx.
+  // The primitives that may meet a window, in the order of their ranks. x, y: its pixels over kWindowPx.
   std::span<const RasterPrim* const> in_window(int x, int y) const;
   // All of them.
   std::vector<const RasterPrim*> all() const;
 
  private:
-  // Neighbours in order of id, set up by one thread.
+  // Neighbours in order of rank, set up by one thread.
   struct Chunk {
     uint32_t body = 0, first = 0, last = 0;  // of its triangles
     std::vector<RasterPrim> prims;

@@ -181,7 +181,7 @@ std::span<const RasterPrim* const> WarnockScene::draw(int x, int y, std::span<Vi
   const TileRect image = root();
   const int x0 = x * kWindowPx, y0 = y * kWindowPx;
   const TileRect window{x0, y0, std::min(x0 + kWindowPx, image.x1), std::min(y0 + kWindowPx, image.y1)};
-  // The place of a primitive in the list, which is in the order of ids like the part of it that a small window sees.
+  // The place of a primitive in the list, which is in the order of ranks like the part of it that a small window sees.
   const auto place_of = [&](const RasterPrim* prim) {
     return static_cast<uint32_t>(
         std::lower_bound(list.begin(), list.end(), prim,

@@ -8,8 +8,9 @@
 
 namespace tilelight {
 
-// Draws the primitives, in the order of their ids, over a cleared window with its samples placed. x0, y0: the window's
-// first pixel. Returns how often a sample was covered. Compiled for several instruction sets, all with the same bits.
+// Draws the primitives, in the order of their ranks, over a cleared window with its samples placed. x0, y0: the
+// window's first pixel. Returns how often a sample was covered. Compiled for several instruction sets, all with the
+// same bits.
 int64_t draw_depths(std::span<const RasterPrim* const> prims, int x0, int y0, VisibleWindow& window);
 
 }  // namespace tilelight

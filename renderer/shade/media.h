@@ -62,6 +62,8 @@ class MediaSets {
     return set == kOpenAir ? 1.0 : scene_.materials[scene_.bodies[nodes_[set].top].material].source.ior;
   }
 
+  uint32_t rank(uint32_t body) const { return scene_.bodies[body].rank; }
+
   // Sets made since size() was `size` are no more.
   size_t size() const { return nodes_.size(); }
   void shrink(size_t size) { nodes_.resize(size); }
@@ -104,17 +106,40 @@ class MediaSets {
   size_t history_ = 0;                          // nodes of the set that find_present saw
 };
 
-// The media on both sides of a medium's surface, as a ray meets it.
+// The media on both sides of a place where a ray meets the surfaces of media, and which of them shows: the one that
+// bounds the medium that counts on its side. Where both sides have one (glass on water) there is one interface from the
+// one medium into the other, with the surface of the lower rank: what it is does not depend on the ray's way.
 struct Crossing {
-  MediaSets::Set before, after;
-  bool is_seen = true;  // false where another medium fills the inner side: the surface is passed unbent
+  MediaSets::Set before = MediaSets::kOpenAir, after = MediaSets::kOpenAir;
+  uint32_t seen = kNone;  // the body whose surface shows; kNone: another medium fills both sides, the place is passed
 
-  Crossing(MediaSets& sets, MediaSets::Set media, uint32_t body, bool from_outside) : before(media), after(media) {
-    MediaSets::Set& inner = from_outside ? after : before;
-    // A body that is left without having been entered counts as entered.
-    if (from_outside || !sets.contains(inner, body)) inner = sets.with(inner, body);
-    is_seen = sets.top(inner) == body;
-    if (!from_outside) after = sets.without(before, body);
+  Crossing() = default;
+  // The one surface of the place.
+  Crossing(MediaSets& sets, MediaSets::Set media, uint32_t body, bool from_outside)
+      : Crossing(sets, media, from_outside ? std::span(&body, 1) : std::span<uint32_t>(),
+                 from_outside ? std::span<uint32_t>() : std::span(&body, 1), {}) {}
+  // entered: outermost first. left: by rank. thinner: bodies that are entered and left in this very place, and are thin
+  // in it.
+  Crossing(MediaSets& sets, MediaSets::Set media, std::span<const uint32_t> entered, std::span<const uint32_t> left,
+           std::span<const uint32_t> thinner)
+      : before(media) {
+    for (const uint32_t body : left) {  // a body that is left without having been entered counts as entered
+      if (!sets.contains(before, body)) before = sets.with(before, body);
+    }
+    after = before;
+    for (const uint32_t body : left) after = sets.without(after, body);
+    for (const uint32_t body : entered) after = sets.with(after, body);
+    for (const uint32_t body : left) show(sets, body, sets.top(before) == body);
+    for (const uint32_t body : entered) show(sets, body, sets.top(after) == body);
+    if (is_seen()) return;
+    for (const uint32_t body : thinner) show(sets, body, sets.top(sets.with(before, body)) == body);
+  }
+
+  bool is_seen() const { return seen != kNone; }
+
+ private:
+  void show(const MediaSets& sets, uint32_t body, bool is_shown) {
+    if (is_shown && (seen == kNone || sets.rank(body) < sets.rank(seen))) seen = body;
   }
 };
 

@@ -18,9 +18,10 @@ struct Departure {
   uint32_t prim = kNone;
 };
 
-// What a ray that leaves a surface does with other bodies' surfaces in the very same place (a glass foot standing on a
-// board). They are crossed in the order of their public ids: on the way on, those after the one just left; on the way
-// back, those before it.
+// What a ray that leaves a surface does with other bodies' surfaces in the very same place. There surfaces lie in
+// layers (CompiledBody::rank): films, then what is opaque, then media. A ray that goes on from a film meets those of a
+// higher rank, one that goes back the films of a lower one. The surfaces of media in one place are crossed all at once,
+// so that a ray that goes on from there meets none.
 enum class Coincident : uint8_t { none, after, before };
 
 struct Ray {

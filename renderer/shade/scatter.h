@@ -19,7 +19,9 @@ Scatter scatter_thin(const Surface& surface, const Vec3& incoming);
 
 // A surface of a medium. ior_before, ior_after: of the media on this and on the other side.
 // Snell's law; total internal reflection sends kr + kt into the mirror direction. With Material::fresnel the weights
-// are kr F and kt (1 - F), F the reflectance of unpolarised light, 1 in total reflection.
-Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after);
+// are kr F and kt (1 - F), F the reflectance of unpolarised light, 1 in total reflection. is_smooth: the normal is
+// interpolated, and the facet stands for a curved surface, which total reflection must not mistake (see scatter.cpp).
+Scatter scatter_transparent(const Surface& surface, const Vec3& incoming, double ior_before, double ior_after,
+                            bool is_smooth);
 
 }  // namespace tilelight

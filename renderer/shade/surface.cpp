@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/shade/surface.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/shade/surface-inl.h"
 
 namespace tilelight {
@@ -32,6 +35,17 @@ LocalPoint local_point(const CompiledBody& body, const Ray& ray, const Hit& hit)
 
 LocalPoint triangle_point(const CompiledMesh& mesh, uint32_t prim, double b0, double b1) {
   return point_of(point_of_triangle(triangle_of(mesh, prim), is_smooth(mesh), b0, b1));
+}
+
+double facet_cosine(const Surface& surface) {
+  const CompiledBody& body = *surface.body;
+  if (body.kind != BodyKind::mesh || !is_smooth(*body.mesh)) return 1.0;
+  double least = 1.0;
+  for (const uint32_t n : body.mesh->corner_normals[surface.here.prim]) {
+    const Vec3 normal = unit_of(body.world_from_normal * body.mesh->normals[n]);
+    least = std::min(least, std::abs(glm::dot(normal, surface.geometric_normal)));
+  }
+  return least;
 }
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit) {

@@ -22,6 +22,10 @@ struct Surface {
 
 Surface make_surface(const CompiledScene& scene, const Ray& ray, const Hit& hit);
 
+// The least cosine between a facet's normal and those of its corners: how far the curved surface that it stands for may
+// be turned from it. 1 on what is flat or no mesh.
+double facet_cosine(const Surface& surface);
+
 // The unit way from a place to a viewer: xyz his place and w 1, or xyz the way to him and w 0.
 inline Vec3 way_to_viewer(const Vec4& viewer, const Vec3& place) { return unit_of(Vec3(viewer) - viewer.w * place); }
 

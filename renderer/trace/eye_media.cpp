@@ -9,6 +9,7 @@
 #include "renderer/compile/passes.h"
 #include "renderer/shade/surface.h"
 #include "renderer/trace/intersect.h"
+#include "renderer/trace/place.h"
 #include "renderer/trace/trace_rays.h"
 
 namespace tilelight {
@@ -17,10 +18,18 @@ namespace {
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
 constexpr auto kExact = [] { return Vec3(0.0); };
 
-// Inside or outside by the sign of Ng.d at the nearest triangle along the ray.
+// Inside or outside by the sign of Ng.d at the nearest triangle along the ray; where two shells touch, the one side is
+// as good as the other, and the next triangle tells.
 std::optional<double> mesh_exit(const CompiledScene& scene, uint32_t index, const Ray& ray) {
-  const Hit hit = trace_body(scene, index, ray);
-  return hit.is_hit() && !make_surface(scene, ray, hit).from_outside ? std::optional(hit.t) : std::nullopt;
+  Ray on = ray;
+  for (double gone = 0.0;;) {
+    const Hit hit = trace_body(scene, index, on);
+    if (!hit.is_hit()) return std::nullopt;
+    const Surface surface = make_surface(scene, on, hit);
+    gone += hit.t;
+    if (!is_between_shells(scene, on, hit)) return surface.from_outside ? std::nullopt : std::optional(gone);
+    on = {surface.position, ray.direction, surface.here, Coincident::none};
+  }
 }
 
 // How far it is along the ray to the surface of the body; none if the ray starts outside.
@@ -99,7 +108,9 @@ MediaList EyeMedia::around(const Vec3& start, std::span<const uint32_t> some) co
   for (const uint32_t body : some) {
     if (const auto exit = exit_distance(scene_, body, ray)) found.emplace_back(-*exit, body);
   }
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : scene_.bodies[a.second].rank < scene_.bodies[b.second].rank;
+  });
   MediaList media;
   for (const auto& [order, body] : found) media.push_back(body);
   return media;

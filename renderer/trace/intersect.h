@@ -50,16 +50,16 @@ inline Start start_of(const Ray& ray) {
   return {noise_at(size), reach_at(size)};
 }
 
-// |cosine| between a world direction and the body's geometric normal at a hit at t.
-inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec3& world_direction, uint32_t prim,
-                        double t) {
+// Cosine between a world direction and the body's geometric normal, outward, at a hit at t.
+inline double facing(const CompiledBody& body, const LocalRay& ray, const Vec3& world_direction, uint32_t prim,
+                     double t) {
   Vec3 n(0.0);
   switch (body.kind) {
     case BodyKind::sphere:
       n = ray.origin + t * ray.direction;
       break;
     case BodyKind::box:
-      n[static_cast<int>(prim / 2)] = 1.0;
+      n[static_cast<int>(prim / 2)] = prim % 2 ? 1.0 : -1.0;
       break;
     case BodyKind::plane:
       n.y = 1.0;
@@ -70,7 +70,34 @@ inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec
       n = cross_of(body.mesh->positions[tri[1]] - a, body.mesh->positions[tri[2]] - a);
     }
   }
-  return std::abs(glm::dot(unit_of(body.world_from_normal * n), world_direction));
+  return glm::dot(unit_of(body.world_from_normal * n), world_direction);
+}
+inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec3& world_direction, uint32_t prim,
+                        double t) {
+  return std::abs(facing(body, ray, world_direction, prim, t));
+}
+
+// How far two bodies' surfaces may lie apart, by the rounding of boxes' faces far from the origin, that the document
+// puts in one place. It matters where light goes on from the one into the other.
+inline double face_rounding(const CompiledBody& a, const CompiledBody& b) {
+  return a.layer == Layer::opaque && b.layer == Layer::opaque ? 0.0 : a.face_rounding + b.face_rounding;
+}
+
+// Whether a hit lies in the place where its ray starts.
+inline bool lies_at_start(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
+  const Start start = start_of(ray);
+  if (ray.left.body == kNone || !(std::abs(hit.t) <= start.reach)) return false;
+  const CompiledBody& body = scene.bodies[hit.body];
+  const double across = std::abs(hit.t) * steepness(body, to_local(body, ray), ray.direction, hit.prim, hit.t);
+  return across <= start.noise + face_rounding(body, scene.bodies[ray.left.body]);
+}
+
+// Whether a ray meets a body's surface that lies in the place where it starts.
+inline bool is_met_at_start(const CompiledScene& scene, const Ray& ray, uint32_t index) {
+  if (index == ray.left.body || ray.coincident == Coincident::none) return false;
+  const CompiledBody &body = scene.bodies[index], &left = scene.bodies[ray.left.body];
+  if (ray.coincident == Coincident::after) return body.rank > left.rank;
+  return body.rank < left.rank && body.layer == Layer::film;
 }
 
 // Unit sphere. Hearn and Baker's form (Haines et al., Ray Tracing Gems ch. 7): the discriminant as a squared distance

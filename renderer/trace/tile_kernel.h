@@ -19,6 +19,7 @@
 #include "renderer/trace/eye_rays.h"
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/pixel_filter.h"
+#include "renderer/trace/place.h"
 #include "renderer/trace/tile_job.h"
 #include "renderer/trace/trace_rays.h"
 
@@ -42,7 +43,8 @@ class TileKernel {
         spec_(job.plan->view.render),
         counts_(*job.counts),
         face_light_(*job.scene, job.plan->view.render.shading, job.plan->view.render.terminator == Terminator::smooth),
-        media_(*job.scene) {
+        media_(*job.scene),
+        crosser_(*job.scene, media_) {
     const Eye& eye = plan_.eye;
     viewer_ = eye.projection == Projection::orthographic ? Vec4(-eye.forward, 0.0) : Vec4(eye.origin, 1.0);
   }
@@ -149,7 +151,8 @@ class TileKernel {
     const std::span<Path> paths = std::span(level.paths).subspan(first, last - first);
     find_hits(level, rays, first);
     if constexpr (kCan.glass) {
-      for (size_t i = 0; i < rays.size(); ++i) pass_unseen(rays[i], paths[i], hits_[i]);
+      crossings_.resize(rays.size());
+      for (size_t i = 0; i < rays.size(); ++i) pass_unseen(rays[i], paths[i], hits_[i], crossings_[i]);
     }
     const SurfaceOptions options = {.shading = spec_.shading,
                                     .smooth_terminator = spec_.terminator == Terminator::smooth,
@@ -350,29 +353,40 @@ class TileKernel {
   }
 
   // Takes a shadow ray across the surface that it has met; false: no light is left, or nothing is met.
-  bool goes_on(BoundedRay& shadow, const Hit& hit, Color& visible) const {
+  bool goes_on(BoundedRay& shadow, const Hit& hit, Color& visible) {
     if (!hit.is_hit()) return false;
-    visible *= scene_.materials[scene_.bodies[hit.body].material].source.transmission;  // 0 for what is opaque
+    const bool is_at_medium = is_medium(scene_, hit.body);
+    visible *= is_at_medium ? crosser_.tint(shadow.ray, hit)  // 0 for what is opaque
+                            : scene_.materials[scene_.bodies[hit.body].material].source.transmission;
     if (visible == Color(0.0)) return false;
-    // A surface in the very place of the start was crossed on the way back; others there have been dealt with.
-    const bool was_coincident = hit.t <= start_of(shadow.ray).noise && shadow.ray.coincident == Coincident::before;
+    const Coincident onward = is_at_medium ? Coincident::none : ways_from_film(shadow.ray, hit).onward;
     shadow.ray.origin += hit.t * shadow.ray.direction;
     shadow.ray.left = {hit.body, hit.prim};
-    shadow.ray.coincident = was_coincident ? Coincident::none : Coincident::after;
+    shadow.ray.coincident = onward;
     shadow.t_max -= hit.t;
     return true;
   }
 
+  // A ray that is on its way back through the films of the place where it starts meets them the other way round.
+  struct Ways {
+    Coincident onward, back;
+  };
+  Ways ways_from_film(const Ray& ray, const Hit& hit) const {
+    if (ray.coincident == Coincident::before && lies_at_start(scene_, ray, hit))
+      return {Coincident::before, Coincident::after};
+    return {Coincident::after, Coincident::before};
+  }
+
   // Moves on to the first surface that is there: inside a medium of higher priority a surface is passed unbent, and the
   // ray gets no deeper.
-  void pass_unseen(BoundedRay& ray, Path& path, Hit& hit) {
+  void pass_unseen(BoundedRay& ray, Path& path, Hit& hit, Crossing& crossing) {
+    crossing = {};
     while (hit.is_hit() && is_medium(scene_, hit.body) && !is_cancelled()) {
+      crossing = crosser_.cross(ray.ray, path.media, hit);
+      if (crossing.is_seen() || !is_medium(scene_, hit.body)) return;
       const Surface surface = make_surface(scene_, ray.ray, hit);
-      const size_t media_before = media_.size();
-      const Crossing crossing(media_, path.media, hit.body, surface.from_outside);
-      if (crossing.is_seen) return media_.shrink(media_before);
       path.media = crossing.after;
-      ray.ray = {surface.position, ray.ray.direction, surface.here, Coincident::after};
+      ray.ray = {surface.position, ray.ray.direction, surface.here, Coincident::none};
       trace_closest(scene_, {&ray, 1}, {&hit, 1});
     }
   }
@@ -382,20 +396,21 @@ class TileKernel {
     const CompiledMaterial& m = scene_.materials[scene_.bodies[hits_[i].body].material];
     if (!m.is_reflective && !(kCan.glass && m.is_transmissive)) return;
     MediaSets::Set here = path.media, beyond = path.media;
+    Ways ways{Coincident::none, Coincident::before};
     Scatter out;
     if (!kCan.glass || !m.is_transmissive) {
       out.mirrored = mirrored_[i], out.mirror_weight = m.source.reflection;
     } else if (const Surface surface = surface_of(scene_, surfaces_, hits_[i], i); is_medium(scene_, hits_[i].body)) {
-      const Crossing crossing(media_, path.media, hits_[i].body, surface.from_outside);
-      out = scatter_transparent(surface, ray.direction, media_.ior(crossing.before), media_.ior(crossing.after));
-      here = crossing.before, beyond = crossing.after;
+      here = crossings_[i].before, beyond = crossings_[i].after;
+      out = scatter_transparent(surface, ray.direction, media_.ior(here), media_.ior(beyond),
+                                spec_.shading != Shading::flat);
     } else {
       out = scatter_thin(surface, ray.direction);
+      ways = ways_from_film(ray, hits_[i]);
     }
-    if (follow(path, i, out.mirrored, out.mirror_weight, here, Coincident::before, "reflected")) ++counts_.reflected;
+    if (follow(path, i, out.mirrored, out.mirror_weight, here, ways.back, "reflected")) ++counts_.reflected;
     if constexpr (kCan.glass) {
-      if (follow(path, i, out.refracted, out.refract_weight, beyond, Coincident::after, "refracted"))
-        ++counts_.refracted;
+      if (follow(path, i, out.refracted, out.refract_weight, beyond, ways.onward, "refracted")) ++counts_.refracted;
     }
   }
 
@@ -483,6 +498,8 @@ class TileKernel {
   Vec4 viewer_{0.0};         // whoever looks along primary rays: his place, or for an orthographic eye the way to him
   FaceLight face_light_;     // of flat and Gouraud shading
   MediaSets media_;
+  PlaceCrosser crosser_;
+  std::vector<Crossing> crossings_;  // where the hits are media's
   MediaSets::Set eye_media_ = MediaSets::kOpenAir;
   MediaList some_media_;         // hold the starts of some rays of the batch
   std::vector<Color> radiance_;  // by sample of the batch

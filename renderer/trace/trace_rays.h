@@ -5,13 +5,14 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/compile/compiled_scene.h"
 #include "renderer/shade/ray.h"
 
 namespace tilelight {
 
-// hits[i] = the nearest hit of rays[i], ties to the lowest (body, primitive). REQUIRES: equal sizes.
+// hits[i] = the nearest hit of rays[i], ties to the lowest (rank, primitive). REQUIRES: equal sizes.
 void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits);
 
 // is_blocked[i] = whether anything lies before rays[i].t_max. REQUIRES: equal sizes.
@@ -19,5 +20,10 @@ void trace_any(const CompiledScene& scene, std::span<const BoundedRay> rays, std
 
 // The nearest hit with one body alone.
 Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray);
+
+// All surfaces that lie, within rounding, in one place with a point of the body `owner`, where the line through it
+// meets them; t counts from there. In no order.
+void find_surfaces(const CompiledScene& scene, const Vec3& place, const Vec3& direction, uint32_t owner,
+                   std::vector<Hit>& found);
 
 }  // namespace tilelight

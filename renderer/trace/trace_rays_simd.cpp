@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/trace/packet-inl.h"
+#include "renderer/trace/place-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
@@ -26,6 +27,10 @@ void trace_body_ray(const CompiledScene& scene, uint32_t body, const Ray& ray, H
   hit = Walk<false>(scene, {ray}).run_body(body);
 }
 
+void find_surfaces_here(const CompiledScene& scene, const Ray& ray, uint32_t owner, std::vector<Hit>& found) {
+  PlaceSearch(scene, ray, owner, found).run();
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tilelight
 HWY_AFTER_NAMESPACE();
@@ -36,6 +41,7 @@ namespace tilelight {
 HWY_EXPORT(trace_closest_rays);
 HWY_EXPORT(trace_any_rays);
 HWY_EXPORT(trace_body_ray);
+HWY_EXPORT(find_surfaces_here);
 
 void trace_closest(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<Hit> hits) {
   HWY_DYNAMIC_DISPATCH(trace_closest_rays)(scene, rays, hits);
@@ -49,6 +55,12 @@ Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray) {
   Hit hit;
   HWY_DYNAMIC_DISPATCH(trace_body_ray)(scene, body, ray, hit);
   return hit;
+}
+
+void find_surfaces(const CompiledScene& scene, const Vec3& place, const Vec3& direction, uint32_t owner,
+                   std::vector<Hit>& found) {
+  found.clear();
+  HWY_DYNAMIC_DISPATCH(find_surfaces_here)(scene, {.origin = place, .direction = direction}, owner, found);
 }
 
 }  // namespace tilelight

@@ -215,9 +215,10 @@ class Walk {
   Hit run() {
     visit_all();
     if (kAnyHit || !has_tie_) return best_;
-    // Something lies in the same place as the nearest hit, or nearly: among those the lowest id wins, whatever the
-    // order in which they are met.
+    // Something lies in the same place as the nearest hit, or nearly: among those the lowest rank wins, whatever the
+    // order in which they are met; the highest on the way back through films.
     front_ = best_;
+    goes_back_ = ray_.coincident == Coincident::before && lies_at_start(scene_, ray_, front_);
     visit_all();
     return best_;
   }
@@ -367,18 +368,15 @@ class Walk {
     return found;
   }
 
-  // Whether a hit lies ahead of the start. Where the start itself lies on the surface that is hit, the order of ids
+  // Whether a hit lies ahead of the start. Where the start itself lies on the surface that is hit, the order of layers
   // decides and not the sign of t.
   bool is_ahead(uint32_t index, const LocalRay& local, uint32_t prim, double t) const {
     if (t > start_.reach) return true;
     if (!(t >= -start_.reach) || start_.noise == 0.0) return false;
     const CompiledBody& body = scene_.bodies[index];
-    if (std::abs(t) * steepness(body, local, ray_.direction, prim, t) > start_.noise) return t > 0.0;
-    if (index == ray_.left.body || ray_.coincident == Coincident::none) return false;
-    const bool is_before = body.body < scene_.bodies[ray_.left.body].body;
-    if (ray_.coincident == Coincident::after) return !is_before;
-    // What lies before the surface has let the ray through that came here; something opaque there is rounding.
-    return is_before && scene_.materials[body.material].is_transmissive;
+    const double noise = start_.noise + face_rounding(body, scene_.bodies[ray_.left.body]);
+    if (std::abs(t) * steepness(body, local, ray_.direction, prim, t) > noise) return t > 0.0;
+    return is_met_at_start(scene_, ray_, index);
   }
 
   // Surfaces up to here may lie in the same place as one at t, see is_nearer.
@@ -388,12 +386,12 @@ class Walk {
   bool offer(const Hit& hit) {
     const double t = hit.t;
     if (is_settling()) {
-      if (has_lower_id(hit, best_) && t < t_max_ && are_in_one_place(hit, front_)) best_ = hit;
+      if (comes_before(hit, best_) && t < t_max_ && are_in_one_place(hit, front_)) best_ = hit;
       return false;
     }
     if (best_.is_hit()) {
       const bool is_tied = std::abs(t - best_.t) <= tie_at(std::max(std::abs(t), std::abs(best_.t)));
-      if (t < best_.t || (t == best_.t && has_lower_id(hit, best_))) {
+      if (t < best_.t || (t == best_.t && comes_before(hit, best_))) {
         has_tie_ = is_tied;
       } else {
         has_tie_ |= is_tied;
@@ -406,18 +404,21 @@ class Walk {
     return true;
   }
 
-  bool has_lower_id(const Hit& a, const Hit& b) const {
-    const uint32_t body_a = scene_.bodies[a.body].body, body_b = scene_.bodies[b.body].body;
-    return body_a != body_b ? body_a < body_b : a.prim < b.prim;
+  bool comes_before(const Hit& a, const Hit& b) const {
+    const uint32_t rank_a = scene_.bodies[a.body].rank, rank_b = scene_.bodies[b.body].rank;
+    if (rank_a != rank_b) return goes_back_ ? rank_a > rank_b : rank_a < rank_b;
+    return a.prim < b.prim;
   }
 
   // Whether rounding can tell two surfaces apart, measured across them. If not they are in one place, which the lower
-  // id wins: coplanar surfaces show one colour everywhere.
+  // rank wins: coplanar surfaces show one colour everywhere.
   bool are_in_one_place(const Hit& a, const Hit& b) const {
     const double gap = std::abs(a.t - b.t), size = std::max(std::abs(a.t), std::abs(b.t));
     if (gap > tie_at(size)) return false;
     if (gap <= 0x1p-46 * size) return true;
-    const double noise = 0x1p-46 * (std::max(reach_of(scene_.bodies[a.body]), reach_of(scene_.bodies[b.body])) + size);
+    const CompiledBody &body_a = scene_.bodies[a.body], &body_b = scene_.bodies[b.body];
+    const double noise =
+        0x1p-46 * (std::max(reach_of(body_a), reach_of(body_b)) + size) + face_rounding(body_a, body_b);
     if (gap > 0x1p20 * noise) return false;
     return gap <= noise || gap * std::max(steepness_at(a), steepness_at(b)) <= noise;
   }
@@ -441,10 +442,11 @@ class Walk {
   const Start start_;
   const double t_max_;
   Hit best_;
-  Hit front_;              // while ties are settled: the nearest hit
-  bool has_tie_ = false;   // another hit may be in the same place as the best
-  uint32_t only_ = kNone;  // the one body that is asked for
-  Inside inside_;          // of the mesh that was asked last
+  Hit front_;               // while ties are settled: the nearest hit
+  bool goes_back_ = false;  // and the ray starts there, on its way back
+  bool has_tie_ = false;    // another hit may be in the same place as the best
+  uint32_t only_ = kNone;   // the one body that is asked for
+  Inside inside_;           // of the mesh that was asked last
 };
 
 }  // namespace HWY_NAMESPACE

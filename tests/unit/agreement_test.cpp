@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "renderer/measure/judge.h"
 #include "renderer/scene/parse.h"
@@ -45,11 +47,24 @@ TEST(Agreement, HoldsWhereSurfacesAndMediaMeetInOnePlace) {
   const std::string pool_floor = R"({"type": "plane"})";
   const std::string twin = R"({"type": "box", "min": [-1, 0, -1], "max": [1, 1, 1]})";
   TilePool pool;
-  for (const auto& [below, above] : {std::pair(floor, block), {pool_floor, block}, {ball, bubble}, {twin, block}}) {
+  const std::string water = R"({"type": "box", "min": [-3, -1, -3], "max": [3, 0, 3], "material": "water"})";
+  const std::string film = R"({"type": "plane", "material": "glass"})";
+  const std::string flush = R"({"type": "box", "min": [-2, -0.5, -2], "max": [2, 0, 2], "material": "glass"})";
+  for (const auto& [below, above] : {std::pair(floor, block),
+                                     {pool_floor, block},
+                                     {ball, bubble},
+                                     {twin, block},
+                                     {water, block},
+                                     {film, block},
+                                     {film, floor},
+                                     {film, water},
+                                     {water, flush},
+                                     {block, block}}) {
     for (const bool reversed : {false, true}) {
       const std::string json = R"({"image": {"width": 64, "height": 48}, "camera": {"position": [0.3, 1.2, 3.1]},
         "materials": {"glass": {"diffuse": 0.05, "reflection": 0.1, "transmission": [0.9, 0.6, 0.6]},
-                      "air": {"diffuse": 0, "transmission": 1, "ior": 1}},
+                      "air": {"diffuse": 0, "transmission": 1, "ior": 1},
+                      "water": {"diffuse": 0, "transmission": [0.6, 0.9, 0.9], "ior": 1.33}},
         "lights": [{"type": "point", "position": [2, 4, 1], "intensity": 5}],
         "objects": [)" + (reversed ? above + ", " + below : below + ", " + above) +
                                ", {\"type\": \"sphere\", \"center\": [-1.5, 0.5, -2]}]}";
@@ -64,6 +79,81 @@ TEST(Agreement, HoldsWhereSurfacesAndMediaMeetInOnePlace) {
       }
     }
   }
+}
+
+// A shuffled world of blocks on a grid, so that most share faces with others, as boxes, cubes of triangles and turned
+// ones, of glass, water, films and wood.
+class TouchingWorld {
+ public:
+  explicit TouchingWorld(uint64_t seed) : random_(seed) {
+    objects_.push_back(R"({"type": "plane", "material": "wood"})");
+    for (int x = -1; x <= 1; ++x)
+      for (int z = -1; z <= 1; ++z)
+        for (int level = 0; level < 2; ++level)
+          if (random_() % 3) objects_.push_back(block(x, level, z));
+    objects_.push_back(R"({"type": "sphere", "center": [0.5, 2.4, 0.5], "radius": 0.4, "material": "glass"})");
+    objects_.push_back(R"({"type": "box", "min": [-1, 1, -1], "max": [2, 1, 2], "material": "film"})");
+  }
+  std::string json() const {
+    std::string list;
+    for (const std::string& object : objects_) list += (list.empty() ? "" : ", ") + object;
+    return R"({"image": {"width": 40, "height": 30}, "camera": {"position": [3.1, 3.3, 4.7], "target": [0.5, 0.8, 0.5]},
+      "render": {"max_depth": 7, "samples": 1},
+      "materials": {"wood": {"diffuse": {"checker": {"size": 0.5}}},
+        "glass": {"diffuse": 0.02, "reflection": 0.1, "transmission": [0.9, 0.8, 0.7], "specular": 0.4},
+        "flint": {"diffuse": 0, "reflection": 1, "transmission": 1, "fresnel": true, "ior": 1.7},
+        "water": {"diffuse": 0.01, "transmission": [0.7, 0.9, 0.9], "ior": 1.33, "priority": -1},
+        "film": {"diffuse": 0.1, "transmission": [0.9, 0.6, 0.6], "reflection": 0.1}},
+      "lights": [{"type": "point", "position": [4, 6, 3], "intensity": 9}],
+      "meshes": {"cube": {"positions": [0,0,0, 1,0,0, 0,1,0, 1,1,0, 0,0,1, 1,0,1, 0,1,1, 1,1,1], "indices": [
+        0,4,6, 0,6,2, 1,3,7, 1,7,5, 0,1,5, 0,5,4, 2,6,7, 2,7,3, 0,2,3, 0,3,1, 4,5,7, 4,7,6]}},
+      "objects": [)" +
+           list + "]}";
+  }
+  void shuffle() { std::shuffle(objects_.begin(), objects_.end(), random_); }
+
+ private:
+  std::string block(int x, int y, int z) {
+    const char* const materials[] = {"glass", "flint", "water", "glass", "wood"};
+    const std::string material = std::string(R"(, "material": ")") + materials[random_() % 5] + "\"}";
+    const auto place = [](int a, int b, int c) {
+      return "[" + std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(c) + "]";
+    };
+    switch (random_() % 3) {
+      case 0:
+        return R"({"type": "box", "min": )" + place(x, y, z) + R"(, "max": )" + place(x + 1, y + 1, z + 1) + material;
+      case 1:
+        return R"({"type": "mesh", "mesh": "cube", "translate": )" + place(x, y, z) + material;
+      default:
+        return R"({"type": "mesh", "mesh": "cube", "scale": [-1, 1, 1], "translate": )" + place(x + 1, y, z) + material;
+    }
+  }
+
+  std::mt19937_64 random_;
+  std::vector<std::string> objects_;
+};
+
+TEST(Agreement, HoldsInWorldsOfTouchingMediaWhoseOrderChangesNoByte) {
+  TilePool pool;
+  ImageDifference total;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    TouchingWorld world(seed);
+    const auto first = parse_scene(world.json(), Limits{});
+    ASSERT_TRUE(first) << first.error().errors[0].detail << world.json();
+    const Verdict verdict = judge_view(first->scene, first->view, pool);
+    total.pixels += verdict.difference.pixels;
+    total.id_mismatches += verdict.difference.id_mismatches;
+    total.q8_differing += verdict.difference.q8_differing;
+    EXPECT_LE(verdict.difference.q8_differing, 3) << world.json();
+    for (int i = 0; i < 3; ++i) {
+      world.shuffle();
+      const auto shuffled = parse_scene(world.json(), Limits{});
+      ASSERT_TRUE(shuffled);
+      EXPECT_EQ(judge_view(shuffled->scene, shuffled->view, pool).fast.rgb, verdict.fast.rgb) << world.json();
+    }
+  }
+  EXPECT_LE(total.id_mismatch_rate(), kMaxIdMismatchRate) << total.id_mismatches << " pixels";
+  EXPECT_LE(total.q8_rate(), kMaxQ8Rate) << total.q8_differing << " pixels";
 }
 
 // Each ray of an orthographic view starts in the media of its own place on the image plane.

@@ -90,5 +90,58 @@ TEST(MediaSets, GrowByAHandfulOfNodesACrossingHoweverManyMediaOverlap) {
   EXPECT_LE(sets.size(), size_t{4 * kBodies + 20});
 }
 
+// Bodies 0 to 5 of priorities 0, 1, 2, 0, 1, 2; ranks the other way round.
+class Crossings : public testing::Test {
+ protected:
+  Crossings() : scene_(many_media(6)), sets_(scene_) {
+    for (uint32_t i = 0; i < 6; ++i) scene_.bodies[i].rank = 5 - i;
+  }
+  Crossing cross(const std::vector<uint32_t>& media, const std::vector<uint32_t>& entered,
+                 const std::vector<uint32_t>& left, const std::vector<uint32_t>& thinner = {}) {
+    return {sets_, sets_.of(media), entered, left, thinner};
+  }
+  uint32_t top_before(const Crossing& c) { return sets_.top(c.before); }
+  uint32_t top_after(const Crossing& c) { return sets_.top(c.after); }
+
+  CompiledScene scene_;
+  MediaSets sets_;
+};
+
+TEST_F(Crossings, FromOneMediumIntoAnotherAreOneInterfaceBothWays) {
+  const Crossing down = cross({0}, {3}, {0}), up = cross({3}, {0}, {3});
+  EXPECT_EQ(top_before(down), 0u);
+  EXPECT_EQ(top_after(down), 3u);
+  EXPECT_EQ(top_before(up), 3u);
+  EXPECT_EQ(top_after(up), 0u);
+  EXPECT_EQ(down.seen, 3u) << "the lower rank";
+  EXPECT_EQ(up.seen, down.seen);
+}
+
+TEST_F(Crossings, InsideAMediumOfHigherPriorityAreNotSeen) {
+  EXPECT_FALSE(cross({2, 0}, {3}, {0}).is_seen());
+  EXPECT_TRUE(cross({2, 0}, {3}, {2}).is_seen());
+  EXPECT_EQ(cross({2, 0}, {3}, {2}).seen, 2u) << "3 lies over 0, but 2 bounds what was there";
+}
+
+TEST_F(Crossings, OfWhatWasNotEnteredCountItAsEntered) {
+  const Crossing c = cross({}, {3}, {0});
+  EXPECT_EQ(top_before(c), 0u);
+  EXPECT_EQ(top_after(c), 3u);
+}
+
+TEST_F(Crossings, IntoSeveralAtOnceShowTheInnermostOfEquals) {
+  const Crossing c = cross({}, {0, 3}, {});
+  EXPECT_EQ(top_after(c), 3u);
+  EXPECT_EQ(c.seen, 3u);
+  EXPECT_EQ(cross({}, {3, 0}, {}).seen, 0u);
+}
+
+TEST_F(Crossings, OfABodyThatIsThinInThePlaceChangeNoMedium) {
+  const Crossing c = cross({0}, {}, {}, {1});
+  EXPECT_EQ(c.before, c.after);
+  EXPECT_EQ(c.seen, 1u);
+  EXPECT_FALSE(cross({2}, {}, {}, {1}).is_seen()) << "the medium around it has the higher priority";
+}
+
 }  // namespace
 }  // namespace tilelight

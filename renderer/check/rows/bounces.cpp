@@ -40,6 +40,10 @@ constexpr Row kRows[] = {
     {"M11", "grazing Fresnel", "cosines of 0.1 to 1e-12", "Schlick's approximation", grazing_fresnel},
     {"M12", "energy after 1000 mirrors", "kr = 0.999", "a product in float", thousand_mirrors},
     {"M13", "nested media", "20 balls inside each other", "a list of 16 media", nested_media},
+    {"M14", "touching media", "glass on water, faces at 0.1 + 0.2 and 0.3", "out of the one, into the other",
+     touching_media},
+    {"M15", "curved facets", "glass balls of 20 to 5120 facets, ior 1.05 to 2.4",
+     "Snell's law by the interpolated normal", curved_facets},
 };
 
 }  // namespace

@@ -55,5 +55,8 @@ Outcome grazing_fresnel(const Context& context);
 Outcome overlapping_media(const Context& context);
 Outcome plane_through_glass(const Context& context);
 Outcome nested_media(const Context& context);
+// bounces_touching.cpp
+Outcome touching_media(const Context& context);
+Outcome curved_facets(const Context& context);
 
 }  // namespace tilelight::check

@@ -21,7 +21,7 @@ class Interface {
     surface_.material = &material_;
   }
   Scatter scatter(const Vec3& incoming, double ior_before, double ior_after) const {
-    return scatter_transparent(surface_, incoming, ior_before, ior_after);
+    return scatter_transparent(surface_, incoming, ior_before, ior_after, false);
   }
 
  private:

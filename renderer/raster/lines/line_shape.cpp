@@ -126,7 +126,7 @@ LineShape make_mesh_shape(const CompiledMesh& mesh) {
   shape.faces.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) shape.faces.push_back({{a, b, c, 0}, 3});
   shape.edges = edges_of(shape.faces, &mesh);
-  if (!mesh.closed || shape.faces.empty()) return shape;
+  if (!mesh.is_manifold || shape.faces.empty()) return shape;
   const std::vector<uint32_t> parts = parts_of(shape);
   shape.is_solid = are_parts_outward(mesh, parts);
   shape.is_convex = shape.is_solid && is_convex_solid(mesh, shape, parts);

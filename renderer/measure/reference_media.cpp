@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/measure/reference_media.h"
+
+#include <utility>
+
+namespace tilelight::reference {
+namespace {
+
+// All of one body's surfaces in the place: the ray may enter it, leave it, or both.
+struct Visit {
+  uint32_t body;
+  std::optional<Hit> entry, exit;
+};
+
+std::vector<Visit> visits_of(const ReferenceScene& scene, const std::vector<Hit>& surfaces, const Vec3& direction) {
+  std::vector<Visit> visits;
+  for (const Hit& hit : surfaces) {
+    const auto same = std::find_if(visits.begin(), visits.end(), [&](const Visit& v) { return v.body == hit.body; });
+    Visit& visit = same != visits.end() ? *same : visits.emplace_back(Visit{hit.body, {}, {}});
+    const bool goes_in = glm::dot(geometric_normal(scene.body(hit.body), hit), direction) < 0.0;
+    std::optional<Hit>& side = goes_in ? visit.entry : visit.exit;
+    if (!side || hit.primitive < side->primitive) side = hit;
+  }
+  return visits;
+}
+
+}  // namespace
+
+Interface make_interface(const ReferenceScene& scene, const MediaStack& media, const std::vector<Hit>& surfaces,
+                         const Vec3& direction) {
+  Interface out{media, {}, {}};
+  std::vector<Visit> visits = visits_of(scene, surfaces, direction);
+  // From one part of a body into the next: nothing happens.
+  std::erase_if(visits, [&](const Visit& v) { return v.entry && v.exit && media.contains(v.body); });
+  std::vector<std::pair<double, uint32_t>> entered;
+  for (const Visit& v : visits) {
+    if (v.exit && !v.entry && !out.here.contains(v.body)) out.here = out.here.with(v.body);
+    if (v.entry && !v.exit) entered.emplace_back(scene.way_through(*v.entry, direction), v.body);
+  }
+  // Of media entered together, the one left last is the outermost.
+  std::stable_sort(entered.begin(), entered.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first * (1.0 + 1e-12); });
+  out.beyond = out.here;
+  for (const Visit& v : visits)
+    if (v.exit && !v.entry) out.beyond = out.beyond.without(v.body);
+  for (const auto& [way, body] : entered) out.beyond = out.beyond.with(body);
+
+  const auto is_bound = [&](const Visit& v) {
+    if (v.entry && v.exit) return false;
+    return v.entry ? out.beyond.top(scene) == v.body : out.here.top(scene) == v.body;
+  };
+  // A body that is thinner than numbers can tell is a thin one.
+  const auto is_thin = [&](const Visit& v) { return v.entry && v.exit && out.here.with(v.body).top(scene) == v.body; };
+  auto shown = std::find_if(visits.begin(), visits.end(), is_bound);
+  if (shown == visits.end()) shown = std::find_if(visits.begin(), visits.end(), is_thin);
+  if (shown != visits.end()) out.shown = shown->entry ? shown->entry : shown->exit;
+  return out;
+}
+
+}  // namespace tilelight::reference
