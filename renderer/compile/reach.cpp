@@ -106,7 +106,7 @@ Box box_of(const CompiledBody& body) {
   return box;
 }
 
-// How far above a facet of the body a shadow ray may start: see rounded_start in shade/surface-inl.h.
+// How far above a facet of the body a shadow ray may start: see place_on_curve in shade/surface-inl.h.
 double most_lift(const CompiledBody& body) {
   if (body.kind != BodyKind::mesh || body.mesh->corner_normals.empty()) return 0.0;
   constexpr double kLongest = 4.0;  // above the diagonal of [-1, 1]

@@ -256,6 +256,20 @@ std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, boo
   return body.world_from_local * mixed;
 }
 
+RoundedFacet rounded_facet(const ReferenceBody& body, const Hit& hit) {
+  const TriMesh& mesh = *body.mesh->mesh;
+  const auto& vertices = corners(mesh, hit.primitive);
+  const Vec3 facing = geometric_normal(body, hit);
+  RoundedFacet out;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 normal = glm::normalize(body.normal_from_local * mesh.corner_normals[hit.primitive][i]);
+    out.turn = std::max(out.turn, std::min(glm::length(normal - facing), glm::length(normal + facing)));
+    const Vec3 edge = mesh.positions[vertices[(i + 1) % 3]] - mesh.positions[vertices[i]];
+    out.longest_edge = std::max(out.longest_edge, glm::length(body.world_from_local * edge));
+  }
+  return out;
+}
+
 PatternPoint pattern_at(const ReferenceBody& body, const Hit& hit) {
   const Vec3 point = transform_point(body.pattern_from_local, hit.local);
   if (body.kind == BodyKind::sphere) return {point, -1};

@@ -82,6 +82,12 @@ SurfacePoint surface_at(const ReferenceBody& body, const Hit& hit);
 // outside or from inside: each corner's tangent plane is asked, and the answers mixed as the normals are (Hanika 2021,
 // Ray Tracing Gems II ch. 4). A world vector; none on other surfaces.
 std::optional<Vec3> lift_to_curve(const ReferenceBody& body, const Hit& hit, bool is_inside);
+// How far a facet is turned from the normals at its corners (the length of the difference of unit vectors), and its
+// size, in the world. REQUIRES: a mesh with vertex normals.
+struct RoundedFacet {
+  double turn = 0.0, longest_edge = 0.0;
+};
+RoundedFacet rounded_facet(const ReferenceBody& body, const Hit& hit);
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit);
 // The largest angle between a facet's normal and those given to its corners, radians; 0 on other surfaces.
 double facet_spread(const ReferenceBody& body, const Hit& hit);

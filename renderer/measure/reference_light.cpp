@@ -46,16 +46,47 @@ std::optional<Incidence> incidence(const Light& light, const Vec3& point, const 
 
 bool is_odd(double whole) { return whole - 2.0 * std::floor(0.5 * whole) == 1.0; }
 
-// How much of the light comes to a point that lies `lift` above the surface.
+// Facets that are meant to lie in one plane may do so no better than the digits of a document say.
+constexpr double kLowSine = 0x1p-10;
+// A curve above its facet by less than so many roundings is none.
+constexpr double kLeastLift = 0x1p10;
+
+// Whether light that goes straight to a rounded facet is hidden by nothing but a facet next to it that rises towards
+// the light though its normals say that the light falls upon it too.
+bool is_hidden_by_facet(const ReferenceScene& scene, const ShadingPoint& at, const Ray& ray) {
+  const RoundedFacet facet = rounded_facet(scene.body(at.hit.body), at.hit);
+  if (glm::dot(at.geometric, ray.direction) >= 2.0 * facet.turn) return false;
+  const auto met = scene.nearest(ray);
+  if (!met || met->body != at.hit.body || met->t >= 2.0 * facet.longest_edge) return false;
+  const ShadingPoint other = shading_point(scene.body(met->body), *met, ray.direction);
+  return glm::dot(other.shading, ray.direction) > 0.0 && glm::dot(other.geometric, at.geometric) > 0.0;
+}
+
+// The light that comes over the curve: past it, and down to the facet.
+Color light_over_curve(const ReferenceScene& scene, const ShadingPoint& at, const Light& light, const Vec3& lift) {
+  Ray ray{at.point + lift, {}};  // from free space
+  double distance = std::numeric_limits<double>::infinity();
+  if (light.kind == LightKind::directional) {
+    ray.direction = -unit(light.direction);
+  } else {
+    const Vec3 way = light.position - ray.origin;
+    distance = glm::length(way);
+    ray.direction = glm::normalize(way);
+  }
+  const Color passed = scene.transmittance(ray, distance);
+  if (passed == Color(0.0)) return passed;
+  return passed * scene.transmittance(scene.ray_from(at.hit, unit(lift), Coincident::before), glm::length(lift));
+}
+
+// How much of the light comes to a point of a surface. lift: from there to the curve that a rounded facet stands for.
 Color visible_part(const ReferenceScene& scene, const ShadingPoint& at, const Light& light, const Incidence& in,
                    const Vec3& lift) {
-  Ray ray = scene.ray_from(at.hit, in.to_light, Coincident::before);
-  if (lift == Vec3(0.0)) return scene.transmittance(ray, in.distance);
-  ray.origin += lift;
-  if (light.kind == LightKind::directional) return scene.transmittance(ray, in.distance);
-  const Vec3 way = light.position - ray.origin;
-  ray.direction = glm::normalize(way);
-  return scene.transmittance(ray, glm::length(way));
+  const Ray ray = scene.ray_from(at.hit, in.to_light, Coincident::before);
+  const bool is_rounded = glm::length(lift) > kLeastLift * ray.noise;
+  if (is_rounded && glm::dot(at.geometric, in.to_light) < kLowSine) return light_over_curve(scene, at, light, lift);
+  const Color passed = scene.transmittance(ray, in.distance);
+  if (!is_rounded || passed == Color(1.0) || !is_hidden_by_facet(scene, at, ray)) return passed;
+  return light_over_curve(scene, at, light, lift);
 }
 
 }  // namespace

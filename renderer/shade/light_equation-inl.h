@@ -91,6 +91,14 @@ struct LightSampleOf {
   MaskOf<R> is_lit;
   Of3<R> arriving, diffuse, specular;  // 0 where not lit
 };
+// Whether light that falls upon a rounded surface comes over the curve (terminator.h): from behind the facet, or so low
+// that neighbours may hide it which a document's digits put in one plane with it no better than this.
+template <class R>
+HWY_INLINE MaskOf<R> comes_over_curve(const Of3<R>& geometric_normal, const Of3<R>& to_light) {
+  constexpr double kLow = 0x1p-10;
+  return dot(geometric_normal, to_light) < R(kLow);
+}
+
 // kGlossy: something in the scene has a specular part.
 template <bool kGlossy, class R>
 HWY_INLINE LightSampleOf<R> light_at(const CompiledScene& scene, const CompiledLight& light,

@@ -188,12 +188,13 @@ HWY_INLINE Of3<R> mirror_direction_at(const Of3<R>& normal, const Of3<R>& geomet
   return select(is_above, mirrored, reflected(incoming, geometric_normal));
 }
 
-// Where shadow rays start on a rounded surface, a triangle of a smooth mesh: off the facet, on the curved surface,
-// which is taken from the tangent planes at the corners (Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems
-// II ch. 4). Never under the facet.
+// The place above a point of a rounded surface, a triangle of a smooth mesh, on the curved surface that the facet
+// stands for. It is taken from the tangent planes at the corners (Hanika 2021, Hacking the Shadow Terminator, Ray
+// Tracing Gems II ch. 4): of a sphere one sagitta outside of it, so that no tangent from there meets the facets. Never
+// under the facet.
 template <class R>
-HWY_INLINE Of3<R> rounded_start(const CompiledBody& body, const TriangleOf<R>& triangle, R b0, R b1,
-                                const Of3<R>& position, MaskOf<R> from_outside) {
+HWY_INLINE Of3<R> place_on_curve(const CompiledBody& body, const TriangleOf<R>& triangle, R b0, R b1,
+                                 const Of3<R>& position, MaskOf<R> from_outside) {
   const R weight[3] = {b0, b1, R(1.0) - b0 - b1};
   const Of3<R>(&corner)[3] = triangle.corner;
   const Of3<R> facet = weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];

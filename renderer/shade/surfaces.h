@@ -23,7 +23,7 @@ struct Column3 {
 struct SurfaceOptions {
   Shading shading = Shading::phong;
   bool smooth_terminator = true;  // light and shadow of rounded surfaces are those of what they stand for
-  bool casts_shadows = true;      // SurfaceColumns::start is asked for
+  bool casts_shadows = true;      // SurfaceColumns::curve is asked for
   const Vec4* viewer = nullptr;   // whoever looks at all of them, as way_to_viewer has him; null: along the rays
 };
 
@@ -31,7 +31,7 @@ struct SurfaceOptions {
 struct SurfaceColumns {
   Column3 direction;  // of the ray
   Column3 position, geometric_normal, normal, ambient, diffuse;
-  Column3 start;     // of shadow rays: off the facet where a surface is rounded
+  Column3 curve;     // where a surface is rounded: the place above the facet, on the curved surface; else the position
   Column3 specular;  // ks; this, shininess and is_specular in scenes that have the feature alone
   Column shininess;
   std::vector<uint8_t> from_outside, is_specular, is_rounded;  // 0 or 1
@@ -45,10 +45,11 @@ Surface surface_of(const CompiledScene& scene, const SurfaceColumns& surfaces, c
 
 // What one light brings to each surface before it is known whether something stands between.
 struct LightColumns {
-  Column3 light;                     // diffuse and specular part; 0 where not lit
-  Column3 to_light;                  // unit, from where shadow rays start
-  Column distance;                   // likewise; normalised units, infinite for a directional light
-  std::vector<uint8_t> is_at_light;  // the light lies at the very place
+  Column3 light;                       // diffuse and specular part; 0 where not lit
+  Column3 to_light;                    // unit, from where shadow rays start
+  Column distance;                     // likewise; normalised units, infinite for a directional light
+  std::vector<uint8_t> is_at_light;    // the light lies at the very place
+  std::vector<uint8_t> is_from_curve;  // 0 or 1: shadow rays start on the curved surface, see terminator.h
 };
 // casts_shadow: to_light and distance are those of shadow rays; else of the place itself. REQUIRES: surfaces of the
 // scene, and their number.

@@ -9,6 +9,7 @@
 
 #include "renderer/shade/light_equation-inl.h"
 #include "renderer/shade/surfaces.h"
+#include "renderer/shade/terminator.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tilelight {
@@ -33,7 +34,7 @@ HWY_INLINE void store(LaneMask mask, std::vector<uint8_t>& to, size_t i) {
 // What is known of kLanes hits.
 struct LaneSurfaces {
   SurfaceOf<Lanes> surface;
-  Of3<Lanes> start;
+  Of3<Lanes> curve;
   GlossOf<Lanes> gloss;
   LaneMask is_rounded;
 };
@@ -71,7 +72,7 @@ class SurfaceMaker {
     store(all.surface.normal, out.normal, at);
     store(all.surface.ambient, out.ambient, at);
     store(all.surface.diffuse, out.diffuse, at);
-    store(all.start, out.start, at);
+    store(all.curve, out.curve, at);
     store(all.surface.from_outside, out.from_outside, at);
     store(all.is_rounded, out.is_rounded, at);
     if (!has_gloss_) return;
@@ -128,10 +129,10 @@ class SurfaceMaker {
     const Lanes u = b0.lanes(), v = b1.lanes();
     LaneSurfaces out;
     out.surface = seen(body, point_of_triangle(triangle, has_normals, u, v));
-    out.start = out.surface.position;
+    out.curve = out.surface.position;
     out.is_rounded = mask_of(is_rounded(has_normals) ? ~0u : 0u);
     if (is_built_in(Feature::shadows) && options_.casts_shadows && is_rounded(has_normals))
-      out.start = rounded_start(body, triangle, u, v, out.surface.position, out.surface.from_outside);
+      out.curve = place_on_curve(body, triangle, u, v, out.surface.position, out.surface.from_outside);
     return out;
   }
 
@@ -144,7 +145,7 @@ class SurfaceMaker {
     }
     LaneSurfaces out;
     out.surface = seen(body, point_of_solid(body, origins.lanes(), direction_, t.lanes(), prim.lanes()));
-    out.start = out.surface.position;
+    out.curve = out.surface.position;
     out.is_rounded = mask_of(0);
     return out;
   }
@@ -161,7 +162,7 @@ class SurfaceMaker {
     take(more.surface.from_outside, all.surface.from_outside);
     take(more.surface.ambient, all.surface.ambient);
     take(more.surface.diffuse, all.surface.diffuse);
-    take(more.start, all.start);
+    take(more.curve, all.curve);
     take(more.is_rounded, all.is_rounded);
     if (!has_gloss_) return;
     take(more.gloss.specular, all.gloss.specular);
@@ -194,6 +195,20 @@ void make_surface_columns(const CompiledScene& scene, std::span<const BoundedRay
     maker.make(&rays[i], &hits[i], std::min(kLanes, rays.size() - i), out, i);
 }
 
+// Makes the ways of shadow rays that start on the curved surface ready; returned is whose do.
+HWY_INLINE LaneMask leave_from_curve(const CompiledLight& light, LaneMask is_rounded, const SurfaceOf<Lanes>& surface,
+                                     const Of3<Lanes>& curve, LightWayOf<Lanes>& way) {
+  const Of3<Lanes> lift = curve - surface.position;
+  LaneMask out = is_rounded & comes_over_curve(surface.geometric_normal, way.to_light) &
+                 (dot(lift, lift) > Lanes(kLeastLift * kLeastLift));
+  if (is_directional(light) || !any(out)) return out;
+  const auto lifted = way_to(light, curve);
+  out = out & (lifted.distance > Lanes(0.0));
+  way.to_light = select(out, lifted.to_light, way.to_light);
+  way.distance = select(out, lifted.distance, way.distance);
+  return out;
+}
+
 template <bool kGlossy>
 HWY_INLINE void light_columns(const CompiledScene& scene, const CompiledLight& light, const SurfaceColumns& surfaces,
                               size_t count, bool casts_shadow, LightColumns& out) {
@@ -210,12 +225,10 @@ HWY_INLINE void light_columns(const CompiledScene& scene, const CompiledLight& l
     store(kGlossy ? sample.diffuse + sample.specular : sample.diffuse, out.light, i);
     store(sample.way.distance == Lanes(0.0), out.is_at_light, i);
     LightWayOf<Lanes> way = sample.way;
-    if (is_built_in(Feature::shadows) && casts_shadow && !is_directional(light) && any(is_rounded)) {
-      const auto lifted = way_to(light, load(surfaces.start, i));
-      const LaneMask is_lifted = is_rounded & (lifted.distance > Lanes(0.0));
-      way.to_light = select(is_lifted, lifted.to_light, way.to_light);
-      way.distance = select(is_lifted, lifted.distance, way.distance);
-    }
+    LaneMask is_from_curve = mask_of(0);
+    if (is_built_in(Feature::shadows) && casts_shadow && any(is_rounded))
+      is_from_curve = leave_from_curve(light, is_rounded, surface, load(surfaces.curve, i), way);
+    store(is_from_curve, out.is_from_curve, i);
     store(way.to_light, out.to_light, i);
     store(way.distance, &out.distance[i]);
   }
@@ -265,7 +278,7 @@ void make_room(Column3& columns, size_t count) {
 void make_surfaces(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<const Hit> hits,
                    const SurfaceOptions& options, SurfaceColumns& out) {
   for (Column3* columns : {&out.direction, &out.position, &out.geometric_normal, &out.normal, &out.ambient,
-                           &out.diffuse, &out.start, &out.specular})
+                           &out.diffuse, &out.curve, &out.specular})
     make_room(*columns, rays.size());
   out.shininess.resize(with_room(rays.size()));
   for (auto* flags : {&out.from_outside, &out.is_specular, &out.is_rounded}) flags->resize(with_room(rays.size()));
@@ -293,6 +306,7 @@ void light_surfaces(const CompiledScene& scene, const CompiledLight& light, cons
   make_room(out.to_light, count);
   out.distance.resize(with_room(count));
   out.is_at_light.resize(with_room(count));
+  out.is_from_curve.resize(with_room(count));
   HWY_DYNAMIC_DISPATCH(light_surface_columns)(scene, light, surfaces, count, casts_shadow, out);
 }
 

@@ -12,10 +12,12 @@
 #include <span>
 #include <vector>
 
+#include "renderer/compile/built_in.h"
 #include "renderer/shade/face_light.h"
 #include "renderer/shade/media.h"
 #include "renderer/shade/scatter.h"
 #include "renderer/shade/surfaces.h"
+#include "renderer/shade/terminator.h"
 #include "renderer/trace/eye_rays.h"
 #include "renderer/trace/intersect.h"
 #include "renderer/trace/pixel_filter.h"
@@ -291,6 +293,7 @@ class TileKernel {
     if constexpr (kCan.shadows) {
       visible_.assign(pending_.size(), Color(1.0));
       follow_beam();
+      if (casts_shadow) light_over_curves(source);
       for (size_t p = 0; p < pending_.size(); ++p) {
         radiance_[paths[pending_[p].hit].sample] += pending_[p].light * visible_[p];
         if constexpr (kCan.listens) seen_[l * rays.size() + pending_[p].hit] = visible_[p];
@@ -318,9 +321,70 @@ class TileKernel {
   // A shadow ray to the light in lit_, written where it stays: a copy of what was just written would wait for it. A
   // surface that the light itself lies on does not hide it: the ray ends before, by the rounding of the distance.
   void aim(BoundedRay& shadow, size_t i) const {
-    shadow.ray.origin = surfaces_.start[i], shadow.ray.direction = lit_.to_light[i];
-    shadow.ray.left = {hits_[i].body, hits_[i].prim}, shadow.ray.coincident = Coincident::before;
+    if (lit_.is_from_curve[i]) {  // in free space
+      shadow.ray.origin = surfaces_.curve[i], shadow.ray.left = {}, shadow.ray.coincident = Coincident::none;
+    } else {
+      shadow.ray.origin = surfaces_.position[i];
+      shadow.ray.left = {hits_[i].body, hits_[i].prim}, shadow.ray.coincident = Coincident::before;
+    }
+    shadow.ray.direction = lit_.to_light[i];
     shadow.t_max = lit_.distance[i] * (1.0 - 0x1p-40);
+  }
+
+  // What light gains and loses by coming over the curved surface that facets stand for; see terminator.h.
+  void light_over_curves(const CompiledLight& light) {
+    if (!is_built_in(Feature::smooth_normals) || spec_.terminator != Terminator::smooth) return;
+    pass_facets(light);
+    follow_beam();
+    go_down_to_facets();
+    follow_beam();
+  }
+
+  // Sends light over the curve that nothing but facets of the curve itself hides.
+  void pass_facets(const CompiledLight& light) {
+    for (size_t p = 0; p < pending_.size(); ++p) {
+      const size_t i = pending_[p].hit;
+      if (!surfaces_.is_rounded[i] || lit_.is_from_curve[i] || visible_[p] == Color(1.0)) continue;
+      const double reach =
+          reach_of_facets(scene_, {hits_[i].body, hits_[i].prim}, surfaces_.geometric_normal[i], lit_.to_light[i]);
+      if (reach == 0.0 || !(lift_at(i) > kLeastLift)) continue;
+      BoundedRay& shadow = beam_.rays.emplace_back();
+      aim(shadow, i);
+      shadow.t_max = std::min(shadow.t_max, reach);
+      beam_.pending.push_back(static_cast<uint32_t>(p));
+    }
+    if (beam_.rays.empty()) return;
+    counts_.shadow += static_cast<int64_t>(beam_.rays.size());
+    beam_hits_.resize(beam_.rays.size());
+    trace_closest(scene_, beam_.rays, beam_hits_);
+    size_t kept = 0;
+    for (size_t k = 0; k < beam_.rays.size(); ++k) {
+      const uint32_t p = beam_.pending[k], i = pending_[p].hit;
+      if (!is_lit_from_behind(scene_, beam_.rays[k].ray, surfaces_.geometric_normal[i], beam_hits_[k])) continue;
+      const LightWay way = way_to_light(light, surfaces_.curve[i]);
+      if (!(way.distance > 0.0)) continue;
+      lit_.is_from_curve[i] = 1, lit_.distance[i] = way.distance, lit_.to_light.set(i, way.to_light);
+      visible_[p] = Color(1.0);
+      aim(beam_.rays[kept], i);
+      beam_.pending[kept++] = p;
+    }
+    beam_.rays.resize(kept);
+    beam_.pending.resize(kept);
+  }
+
+  double lift_at(size_t i) const { return glm::length(surfaces_.curve[i] - surfaces_.position[i]); }
+
+  // The rest of the way of light that comes over the curve.
+  void go_down_to_facets() {
+    for (size_t p = 0; p < pending_.size(); ++p) {
+      const size_t i = pending_[p].hit;
+      if (!lit_.is_from_curve[i] || visible_[p] == Color(0.0)) continue;
+      const double height = lift_at(i);
+      const Vec3 up = (surfaces_.curve[i] - surfaces_.position[i]) / height;
+      beam_.rays.push_back(
+          {{surfaces_.position[i], up, {hits_[i].body, hits_[i].prim}, Coincident::before}, height * (1.0 + 0x1p-40)});
+      beam_.pending.push_back(static_cast<uint32_t>(p));
+    }
   }
 
   // Sets visible_ of what the beam decides, by channel: 0 behind something opaque, else the product of kt of the

@@ -128,7 +128,7 @@ TEST_F(Surfaces, OfRoundedFacetsSendShadowRaysFromAboveThem) {
   int rounded = 0, lifted = 0;
   for (size_t i = 0; i < rays_.size(); ++i) {
     if (!hits_[i].is_hit()) continue;
-    const Vec3 lift = columns.start[i] - columns.position[i];
+    const Vec3 lift = columns.curve[i] - columns.position[i];
     rounded += columns.is_rounded[i];
     lifted += lift != Vec3(0.0);
     if (lift == Vec3(0.0)) continue;
