@@ -7,6 +7,7 @@
 
 #include "renderer/base/safe_length.h"
 #include "renderer/study/pov_media.h"
+#include "renderer/study/pov_mesh.h"
 
 namespace tilelight {
 namespace {
@@ -65,16 +66,15 @@ bool may_spend_budget(const Subject& s) {
   return follows && most > render.ray_budget;
 }
 
-// Through surfaces without an inside POV-Ray goes on without counting.
-bool may_pass_uncounted(const Subject& s) {
-  const auto passed = std::count_if(s.bodies.begin(), s.bodies.end(), [&](const Body& body) {
-    return is_clear(material_of(s, body)) && (!is_solid(body) || material_of(s, body).ior == 1.0);
-  });
-  return passed > 0 && 2 * passed >= s.view.render.max_depth;
-}
-
 bool follows_rays(const Subject& s) {
   return any_material(s, [](const Material& m) { return is_clear(m) || m.reflection != Color(0.0); });
+}
+
+// POV-Ray turns a normal to the eye, we to the side of the facet that is seen: where an interpolated normal looks away
+// from the eye and the facet does not, these are two. On fine meshes that is a rim of no width.
+bool has_turned_normals(const Subject& s) {
+  return !s.scene.lights.empty() &&
+         any_body(s, [&](const Body& body) { return body.mesh && shows_turned_normals(body, *s.view.camera); });
 }
 
 bool has_details(const Subject& s) {
@@ -122,8 +122,6 @@ const std::array kFeatures = {
     PovFeature{"depth over 255", "render.max_depth", PovSupport::approximate,
                "POV-Ray follows at most 255 secondary rays in a row.",
                [](const Subject& s) { return follows_rays(s) && s.view.render.max_depth > 255; }},
-    PovFeature{"depth through thin surfaces", "render.max_depth", PovSupport::approximate,
-               "POV-Ray does not count passages that bend no ray, and goes deeper.", may_pass_uncounted},
     PovFeature{"weight of paths", "render.weight_cutoff"},
     PovFeature{"budget of rays", "render.ray_budget", PovSupport::missing,
                "POV-Ray has none and traces all rays that depth and weight allow.", may_spend_budget},
@@ -178,13 +176,23 @@ const std::array kFeatures = {
     PovFeature{"meshes", "mesh.mesh mesh.material mesh.name mesh_data.positions mesh_data.indices mesh_data.name "
                          "mesh_data.asset"},
     PovFeature{"normals of meshes", "mesh_data.normals mesh_data.crease_deg"},
+    PovFeature{"normals that look away", "mesh_data.normals mesh_data.crease_deg", PovSupport::approximate,
+               "where an interpolated normal looks away from the eye and its facet does not, POV-Ray turns it round.",
+               has_turned_normals},
     PovFeature{"chess pieces", "chess_piece.piece chess_piece.position chess_piece.color chess_piece.detail "
                                "chess_piece.material chess_piece.name"},
     PovFeature{"chess positions", "chess_position.fen chess_position.detail chess_position.materials "
                                   "chess_position.name chess_materials.white chess_materials.black "
                                   "chess_materials.light chess_materials.dark chess_materials.frame"},
-    PovFeature{"transforms", "sphere.scale sphere.rotate_deg sphere.rotate_quat sphere.translate sphere.matrix "
-                             "rotation.axis rotation.angle"},
+    PovFeature{"scale", "sphere.scale cube.scale box.scale plane.scale mesh.scale chess_piece.scale chess_position.scale"},
+    PovFeature{"rotation", "sphere.rotate_deg sphere.rotate_quat cube.rotate_deg cube.rotate_quat box.rotate_deg "
+                           "box.rotate_quat plane.rotate_deg plane.rotate_quat mesh.rotate_deg mesh.rotate_quat "
+                           "chess_piece.rotate_deg chess_piece.rotate_quat chess_position.rotate_deg "
+                           "chess_position.rotate_quat rotation.axis rotation.angle"},
+    PovFeature{"translation", "sphere.translate cube.translate box.translate plane.translate mesh.translate "
+                              "chess_piece.translate chess_position.translate"},
+    PovFeature{"matrices", "sphere.matrix cube.matrix box.matrix plane.matrix mesh.matrix chess_piece.matrix "
+                           "chess_position.matrix"},
     PovFeature{"details", "sphere.radius cube.size box.min box.max", PovSupport::approximate,
                "bodies of less than a ten-thousandth of POV-Ray's reach are lost in its tolerances.", has_details},
 };

@@ -33,6 +33,27 @@ void add_normals(PovText& text, const TriMesh& mesh) {
 
 }  // namespace
 
+bool shows_turned_normals(const Body& body, const Camera& camera) {
+  constexpr double kFar = 0.8;  // cosine
+  const TriMesh& mesh = *body.mesh;
+  const Mat3 linear(body.world_from_local);
+  const Mat3 of_normals = glm::transpose(glm::inverse(linear));
+  for (size_t t = 0; t < mesh.corner_normals.size(); ++t) {
+    const auto place = [&](int corner) { return mesh.positions[mesh.triangles[t][static_cast<size_t>(corner)]]; };
+    const Vec3 facet = safe_normalize(cross_of(place(1) - place(0), place(2) - place(0)));
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3& normal = mesh.corner_normals[t][static_cast<size_t>(corner)];
+      if (std::abs(glm::dot(facet, normal)) > kFar) continue;
+      const Vec3 world = Vec3(body.world_from_local * Vec4(place(corner), 1.0));
+      const bool is_parallel = camera.projection == Projection::orthographic;
+      const Vec3 to_eye = is_parallel ? camera.position - camera.target : camera.position - world;
+      const double side = glm::dot(facet, normal) < 0.0 ? -1.0 : 1.0;
+      if (side * glm::dot(of_normals * facet, to_eye) * glm::dot(of_normals * normal, to_eye) < 0.0) return true;
+    }
+  }
+  return false;
+}
+
 PovMeshSpace pov_mesh_space(const TriMesh& mesh, double size) {
   Box box;
   for (const Vec3& p : mesh.positions) box.grow(p);

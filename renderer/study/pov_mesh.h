@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "renderer/compile/bodies.h"
 #include "renderer/geometry/tri_mesh.h"
 
 namespace tilelight {
@@ -25,6 +26,9 @@ std::string pov_mesh(const TriMesh& mesh, const PovMeshSpace& space, const std::
 
 // The axis that a checker leaves out on a triangle: the dominant one of its normal.
 int dominant_axis(const TriMesh& mesh, size_t triangle);
+
+// Whether the camera sees a facet whose normal at a corner looks away from it, and far from the facet's own.
+bool shows_turned_normals(const Body& body, const Camera& camera);
 
 // A box about the origin, flat faces. Faces of a box without thickness stand once.
 TriMesh box_mesh(const Vec3& half);

@@ -21,7 +21,14 @@ namespace {
 constexpr int kMostLevels = 256;          // POV-Ray's max_trace_level goes no further
 constexpr double kFarLight = 1e6;         // of directional lights, POV-Ray's units
 constexpr double kLeastFade = 1e-4;       // fade_distance where k is 0; light comes from farther off
-constexpr double kThinIor = 1.0 + 1e-6;   // bends nothing, and counts as a secondary ray; 1 does not
+
+// A ray that meets no change of index goes on in POV-Ray without counting as a secondary one. So what bends nothing
+// bends a millionth, each body by another one.
+double counted_ior(const Body& body, const Material& m, size_t index) {
+  constexpr double kLeast = 1e-6;
+  const double ior = is_solid(body) ? m.ior : 1.0;
+  return std::abs(ior - 1.0) < kLeast ? 1.0 + kLeast * static_cast<double>(1 + index % 64) : ior;
+}
 
 bool is_checkered(const Material& m) {
   return std::holds_alternative<Checker>(m.diffuse) || std::holds_alternative<Checker>(m.ambient);
@@ -201,7 +208,8 @@ class Writer {
 
   void end_body(const Body& body) {
     const Material& m = scene_.materials[body.material];
-    if (m.transmission != Color(0.0)) objects_.add(" interior { ior %.9g }", is_solid(body) ? m.ior : kThinIor);
+    const auto index = static_cast<size_t>(&body - bodies_.data());
+    if (m.transmission != Color(0.0)) objects_.add(" interior { ior %.9g }", counted_ior(body, m, index));
     if (!scene_.lights.empty() && !has_shadows()) objects_.add(" no_shadow");
     objects_.add(" }\n");
   }

@@ -40,7 +40,7 @@ std::string PovSetting::words() const {
   std::string out = "-A";
   if (method > 0) {
     char threshold_text[32];
-    std::snprintf(threshold_text, sizeof threshold_text, "%g", threshold);
+    std::snprintf(threshold_text, sizeof threshold_text, "%.3f", threshold);  // it does not know "+A0"
     out = "+AM" + std::to_string(method) + " +A" + threshold_text + " +R" + std::to_string(depth) +
           (has_jitter ? " +J" : " -J");
   }

@@ -6,7 +6,7 @@ namespace tilelight {
 const char* const kPlainPovScene = R"({
   "image": {"width": 48, "height": 36},
   "render": {"terminator": "exact"},
-  "camera": {"position": [2, 2.5, 5], "target": [0, 0.8, 0], "fov_y_deg": 40},
+  "camera": {"position": [2, 2.5, 5], "target": [0, 0.6, 0], "up": [0.1, 1, 0], "fov_y_deg": 33},
   "attenuation": {"mode": "linear", "k": 2},
   "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 5}],
   "objects": [{"type": "plane", "material": {"diffuse": 0.6}},
@@ -32,7 +32,6 @@ std::string pane(const std::string& normals, const std::string& rest = "") {
 constexpr const char* kCheckered = R"({"diffuse": {"checker": {"a": 0.9, "b": 0.2, "size": 0.5}}})";
 constexpr const char* kGlass =
     R"({"diffuse": 0, "ambient": 0, "reflection": 1, "transmission": [0.98, 0.9, 0.6], "fresnel": true})";
-// The rest of a scene that is seen from straight in front of a wall of transparent boxes.
 constexpr const char* kTurned = R"("rotate_deg": {"axis": [1, 2, 0.5], "angle": 40})";
 
 std::vector<PovCase> of_the_view() {
@@ -74,7 +73,7 @@ std::vector<PovCase> of_the_view() {
            {"type": "sphere", "center": [1.4, 1, 0], "material": {"reflection": 0.9}}]})"},
       {"depth over 255", "facing mirrors",
        R"({"render": {"max_depth": 300}, "objects": [{"type": "plane", "material": {"reflection": 0.9}}]})"},
-      {"depth through thin surfaces", "three panes at depth two",
+      {"depth of up to 255", "three panes at depth two",
        R"({"render": {"max_depth": 2}, "objects": [
            {"type": "box", "min": [-1, 0, 0], "max": [1, 2, 0], "material": {"diffuse": 0, "transmission": 0.8}},
            {"type": "box", "min": [-1, 0, 1], "max": [1, 2, 1], "material": {"diffuse": 0, "transmission": 0.8}},
@@ -99,10 +98,10 @@ std::vector<PovCase> of_light() {
       {"ambient light", "without diffuse reflection", ball(R"({"diffuse": 0, "ambient": [0.9, 0.4, 0]})")},
       {"ambient light", "in one channel that reflects nothing", ball(R"({"diffuse": [0.5, 0, 0], "ambient": [0.9, 0.8, 0]})")},
       {"ambient light", "of another checker than the diffuse one",
-       R"({"ambient": 0.4, "objects": [{"type": "plane", "material": {
+       R"({"camera": {"position": [2, 5, 3]}, "ambient": 0.4, "objects": [{"type": "plane", "material": {
            "diffuse": {"checker": {"a": 0.8, "b": 0.1, "size": 1}}, "ambient": {"checker": {"a": 0, "b": 1, "size": 0.7}}}}]})"},
       {"ambient light", "of a checker over plain diffuse",
-       R"({"ambient": 0.4, "objects": [{"type": "plane", "material": {
+       R"({"camera": {"position": [2, 5, 3]}, "ambient": 0.4, "objects": [{"type": "plane", "material": {
            "diffuse": 0.3, "ambient": {"checker": {"a": 0, "b": 1, "size": 0.7}}}}]})"},
       {"attenuation", "linear without a constant", R"({"attenuation": {"mode": "linear", "k": 0}})"},
       {"attenuation", "by the inverse square",
@@ -138,9 +137,9 @@ std::vector<PovCase> of_light() {
 std::vector<PovCase> of_materials() {
   return {
       {"diffuse reflection", "black and colours", ball(R"({"diffuse": [0.9, 0, 0.3]})")},
-      {"checkers", "on a plane", R"({"objects": [{"type": "plane", "material": )" + std::string(kCheckered) + "}]}"},
+      {"checkers", "on a plane", R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "material": )" + std::string(kCheckered) + "}]}"},
       {"checkers", "on a tilted plane through the origin of cells",
-       R"({"objects": [{"type": "plane", "normal": [0.2, 1, 0.1], "material": )" + std::string(kCheckered) + "}]}"},
+       R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "normal": [0.2, 1, 0.1], "material": )" + std::string(kCheckered) + "}]}"},
       {"checkers", "on a ball", ball(kCheckered)},
       {"checkers", "on a box whose faces end at cells",
        on_plane(R"({"type": "box", "min": [-1, 0, -1], "max": [1, 2, 1], "material": )" + std::string(kCheckered) + "}")},
@@ -176,7 +175,7 @@ std::vector<PovCase> of_materials() {
        ball(R"({"diffuse": [0.2, 0.1, 0], "specular": 0.5, "shininess": 100, "reflection": 0.3, "transmission": 0.7})")},
       {"refraction", "seen from inside",
        R"({"camera": {"position": [0.5, 1.1, 0.6], "target": [0, 0.8, 0], "fov_y_deg": 70},
-           "objects": [{"type": "plane", "material": )" + std::string(kCheckered) + R"(},
+           "objects": [{"type": "plane"}, {"type": "cube", "center": [-2, 0, -1], "size": 1.5},
            {"type": "sphere", "center": [0, 1.2, 0], "material": {"diffuse": 0, "reflection": 0.2, "transmission": 0.8}}]})"},
       {"total reflection of weight 1", "a prism",
        on_plane(R"({"type": "cube", "center": [0, 1.2, 0], "size": 1.4, "material":
@@ -234,7 +233,7 @@ std::vector<PovCase> of_objects() {
       {"normals of meshes", "all three alike", pane("0.5,0.3,0.8, 0.5,0.3,0.8, 0.5,0.3,0.8, 0.5,0.3,0.8")},
       {"normals of meshes", "two of three alike", pane("0,0,1, 0,0,1, 0.7,0,0.7, 0.7,0,0.7")},
       {"normals of meshes", "all different", pane("-0.5,-0.3,1, 0.5,-0.3,1, 0.5,0.4,1, -0.5,0.4,1")},
-      {"normals of meshes", "averaged across a ridge",
+      {"normals that look away", "averaged across a ridge",
        on_plane(R"({"type": "mesh", "mesh": "roof", "material": {"diffuse": 0.8, "specular": 0.3}})",
                 R"("meshes": {"roof": {"positions": [-1,0.3,0.6, 1,0.3,0.6, -1,1.4,0, 1,1.4,0, -1,0.3,-0.6, 1,0.3,-0.6],
                    "indices": [0,1,3, 0,3,2, 2,3,5, 2,5,4, 0,4,5, 0,5,1, 0,2,4, 1,5,3], "crease_deg": 180}})")},
@@ -251,27 +250,27 @@ std::vector<PovCase> of_objects() {
            "objects": [{"type": "chess_position", "fen": "8/8/4k3/8/2Q5/8/3K4/8", "detail": 24,
                         "materials": {"white": {"diffuse": 0.8, "specular": 0.3}, "frame": )" +
            std::string(kCheckered) + "}}]}"},
-      {"transforms", "a reflection with shear",
+      {"matrices", "a reflection with shear",
        on_plane(R"({"type": "cube", "center": [0, 0, 0], "matrix": [-1.2,0,0,0, 0.4,1,0,0, 0,0.2,0.9,0, 0,1,0,1], "material": {"specular": 0.3}})")},
-      {"transforms", "a mirrored mesh of uneven scale",
+      {"rotation", "of a mirrored mesh of uneven scale",
        R"({"camera": {"position": [2, 2, 3]}, "objects": [{"type": "plane"},
            {"type": "chess_piece", "piece": "knight", "detail": 32, "scale": [-1.5, 1, 0.7], "rotate_quat": [0, 0.4, 0, 1]}]})"},
-      {"transforms", "a scene of a millionth of the size",
+      {"scale", "a scene of a millionth of the size",
        R"({"camera": {"position": [2e-6, 2.5e-6, 5e-6], "target": [0, 0.8e-6, 0]}, "attenuation": {"k": 2e-6},
            "lights": [{"type": "point", "position": [3e-6, 5e-6, 4e-6], "intensity": 5e-6}],
            "objects": [{"type": "plane"}, {"type": "sphere", "center": [0, 1e-6, 0], "radius": 1e-6,
                         "material": {"reflection": 0.3}}, {"type": "cube", "center": [1.4e-6, 0.3e-6, 0], "size": 0.6e-6}]})"},
-      {"transforms", "a scene of a million times the size",
+      {"scale", "a scene of a million times the size",
        R"({"camera": {"position": [2e6, 2.5e6, 5e6], "target": [0, 0.8e6, 0]}, "attenuation": {"k": 2e6},
            "lights": [{"type": "point", "position": [3e6, 5e6, 4e6], "intensity": 5e6}],
            "objects": [{"type": "plane"}, {"type": "sphere", "center": [0, 1e6, 0], "radius": 1e6,
                         "material": {"reflection": 0.3}}, {"type": "cube", "center": [1.4e6, 0.3e6, 0], "size": 0.6e6}]})"},
-      {"transforms", "a scene far from the origin",
+      {"translation", "of a scene far from the origin",
        R"({"camera": {"position": [10000002, -6999997.5, 3000005], "target": [10000000, -6999999.2, 3000000]},
            "lights": [{"type": "point", "position": [10000003, -6999995, 3000004], "intensity": 5}],
            "objects": [{"type": "plane", "point": [10000000, -7000000, 3000000]},
                        {"type": "sphere", "center": [10000000, -6999999, 3000000], "material": {"specular": 0.5}}]})"},
-      {"transforms", "a cup on a field of a kilometre",
+      {"scale", "a cup on a field of a kilometre",
        on_plane(R"({"type": "box", "min": [-500, -1, -500], "max": [500, 0.01, 500]},
                    {"type": "sphere", "center": [0, 0.06, 0], "radius": 0.05, "material": {"specular": 0.5}})",
                 R"("camera": {"position": [0.1, 0.2, 0.3], "target": [0, 0.05, 0]})")},

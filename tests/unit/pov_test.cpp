@@ -149,7 +149,9 @@ TEST_F(PovRayItself, DrawsAsWeDoWhatTheTableCallsExact) {
     std::printf("%s %.4f  %s: %s\n", is_exact ? "exact" : "noted", results[i].rms, cases[i].feature.c_str(),
                 cases[i].what.c_str());
     EXPECT_EQ(results[i].failure, "") << cases[i].what;
-    if (is_exact) EXPECT_LE(results[i].rms, kAlike) << cases[i].feature << ": " << cases[i].what;
+    if (is_exact) {
+      EXPECT_LE(results[i].rms, kAlike) << cases[i].feature << ": " << cases[i].what;
+    }
   }
 }
 
