@@ -3,210 +3,226 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
-#include <set>
+#include <optional>
+#include <utility>
 
-#include "renderer/base/elementary.h"
-#include "renderer/compile/bodies.h"
-#include "renderer/scene/camera_up.h"
+#include "renderer/base/safe_length.h"
+#include "renderer/compile/eye.h"
+#include "renderer/study/pov_features.h"
+#include "renderer/study/pov_mesh.h"
+#include "renderer/study/pov_space.h"
+#include "renderer/study/pov_text.h"
+#include "renderer/study/pov_texture.h"
 
 namespace tilelight {
 namespace {
 
+constexpr int kMostLevels = 256;          // POV-Ray's max_trace_level goes no further
+constexpr double kFarLight = 1e6;         // of directional lights, POV-Ray's units
+constexpr double kLeastFade = 1e-4;       // fade_distance where k is 0; light comes from farther off
+
+// A ray that meets no change of index goes on in POV-Ray without counting as a secondary one. So what bends nothing
+// bends a millionth, each body by another one.
+double counted_ior(const Body& body, const Material& m, size_t index) {
+  constexpr double kLeast = 1e-6;
+  const double ior = is_solid(body) ? m.ior : 1.0;
+  return std::abs(ior - 1.0) < kLeast ? 1.0 + kLeast * static_cast<double>(1 + index % 64) : ior;
+}
+
+bool is_checkered(const Material& m) {
+  return std::holds_alternative<Checker>(m.diffuse) || std::holds_alternative<Checker>(m.ambient);
+}
+
 class Writer {
  public:
   Writer(const Scene& scene, const View& view)
-      : scene_(scene), camera_(*view.camera), image_(view.image), render_(view.render) {}
+      : scene_(scene),
+        view_(view),
+        bodies_(make_bodies(scene)),
+        space_(pov_space(bodies_, *view.camera)),
+        exposure_(std::exp2(view.image.exposure)),
+        textures_(scene, exposure_) {}
 
   PovScene write() {
-    add("#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level %d adc_bailout %.9g }\n",
-        render_.max_depth + 1, render_.weight_cutoff);
-    add_background();
-    add_camera();
-    for (const Light& light : scene_.lights) add_light(light);
-    const std::vector<Body> bodies = make_bodies(scene_);
-    for (const Body& body : bodies) {
-      if (body.mesh && meshes_.try_emplace(body.mesh.get(), meshes_.size()).second) add_mesh(*body.mesh);
+    for (const Body& body : bodies_) add_body(body);
+    PovText text;
+    text.add("#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level %d adc_bailout %.9g }\n",
+             std::min(view_.render.max_depth + 1, kMostLevels), view_.render.weight_cutoff);
+    add_background(text);
+    add_camera(text);
+    text.add(textures_.declarations());
+    text.add(meshes_.str());
+    if (has_light_through()) {
+      // Declared once more, for lights that are to shine through them.
+      text.add("#declare Everything = union {\n" + objects_.str() + "}\n");
     }
-    for (const Body& body : bodies) add_body(body);
-    return {std::move(text_), {differences_.begin(), differences_.end()}};
+    for (const Light& light : scene_.lights) add_light(text, light);
+    text.add(objects_.str());
+    return {text.str(), pov_notes({scene_, view_, bodies_, space_})};
   }
 
  private:
-  __attribute__((format(printf, 2, 3))) void add(const char* format, ...) {
-    char part[512];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(part, sizeof part, format, arguments);
-    va_end(arguments);
-    text_ += part;
-  }
-  void add(const Vec3& v) { add("<%.9g,%.9g,%.9g>", v.x, v.y, v.z); }
-  void add_color(const Color& c) { add("rgb <%.9g,%.9g,%.9g>", c.r, c.g, c.b); }
-  void add_matrix(const Mat4& m) {
-    add(" matrix <");
-    for (int column = 0; column < 4; ++column) {
-      const Vec4& c = m[column];
-      add("%s%.9g,%.9g,%.9g", column ? ", " : "", c.x, c.y, c.z);
-    }
-    add(">");
+  void add_background(PovText& text) const {
+    text.add("sky_sphere { pigment { gradient y color_map { [0 "), text.color(scene_.background.bottom * exposure_);
+    text.add("] [1 "), text.color(scene_.background.top * exposure_);
+    text.add("] } scale 2.00002 translate -1.00001 } }\n");  // a gradient starts anew at 1
   }
 
-  void add_background() {
-    add("sky_sphere { pigment { gradient y color_map { [0 ");
-    add_color(scene_.background.bottom);
-    add("] [1 ");
-    add_color(scene_.background.top);
-    add("] } scale 2.00002 translate -1.00001 } }\n");  // a gradient starts anew at 1
+  // With all three axes, so that POV-Ray has nothing to work out.
+  void add_camera(PovText& text) const {
+    const ImageSpec& image = view_.image;
+    const Eye eye = make_eye(*view_.camera, image.width, image.height, space_.center, 1.0 / space_.scale);
+    text.add("camera { %s location ", eye.projection == Projection::orthographic ? "orthographic" : "perspective");
+    text.vector(eye.origin);
+    text.add(" direction "), text.vector(eye.forward);
+    text.add(" right "), text.vector(eye.step_x * static_cast<double>(image.width));
+    text.add(" up "), text.vector(-eye.step_y * static_cast<double>(image.height));
+    text.add(" }\n");
   }
 
-  // POV-Ray's space is left-handed: `right` points the other way.
-  void add_camera() {
-    const double aspect = static_cast<double>(image_.width) / image_.height;
-    if (camera_.projection == Projection::orthographic) {
-      add("camera { orthographic location ");
-      add(camera_.position);
-      add(" right -x*%.9g up y*%.9g sky ", camera_.height * aspect, camera_.height);
-      add(usable_up(camera_));
-    } else {
-      const double half_width = elementary::tan(elementary::rad_from_deg(0.5 * camera_.fov_y_deg)) * aspect;
-      add("camera { location ");
-      add(camera_.position);
-      add(" right -x*%.9g sky ", aspect);
-      add(usable_up(camera_));
-      add(" angle %.9g", 2.0 * elementary::atan2(half_width, 1.0) / elementary::rad_from_deg(1.0));
-    }
-    add(" look_at ");
-    add(camera_.target);
-    add(" }\n");
+  bool is_glossy() const {
+    return std::any_of(bodies_.begin(), bodies_.end(),
+                       [&](const Body& body) { return scene_.materials[body.material].specular != Color(0.0); });
+  }
+  bool casts_shadow(const Light& light) const { return light.shadow && view_.render.shadows; }
+  bool has_shadows() const {
+    return std::any_of(scene_.lights.begin(), scene_.lights.end(), [&](const Light& l) { return casts_shadow(l); });
+  }
+  // POV-Ray's `shadowless` lights make no highlights. Where no light casts shadows the objects say so; a directional
+  // light without shadow stands behind everything; only a point light needs more.
+  bool shines_through(const Light& light) const {
+    return light.kind == LightKind::point && !casts_shadow(light) && has_shadows() && is_glossy();
+  }
+  bool has_light_through() const {
+    return std::any_of(scene_.lights.begin(), scene_.lights.end(), [&](const Light& l) { return shines_through(l); });
   }
 
-  // Its light falls off by 2 / (1 + (d / fade_distance)^fade_power), ours by 1 / (d + K) or 1 / (d^2 + K).
-  void add_light(const Light& light) {
+  void add_light(PovText& text, const Light& light) const {
+    text.add("light_source { ");
+    light.kind == LightKind::point ? add_point_light(text, light) : add_directional_light(text, light);
+    text.add(" }\n");
+  }
+
+  // POV-Ray's light falls off by 2 / (1 + (d / fade_distance)^fade_power), ours by 1 / (d + k) or 1 / (d^2 + k).
+  void add_point_light(PovText& text, const Light& light) const {
     const auto& [mode, k] = scene_.attenuation;
-    const bool is_point = light.kind == LightKind::point;
-    const bool fades = is_point && mode != AttenuationMode::none;
-    double factor = 1.0;
-    if (fades && k > 0.0) factor = 0.5 / k;
-    if (fades && !(k > 0.0)) {
-      const double d = glm::length(light.position - camera_.target);
-      factor = mode == AttenuationMode::linear ? 1.0 / d : 1.0 / (d * d);
-      differences_.insert("lights that fade with K = 0 are as bright everywhere as at the camera's target");
-    }
-    add("light_source { ");
-    add(is_point ? light.position : camera_.target - 1e6 * glm::normalize(light.direction));
-    add(", ");
-    add_color(light.color * light.intensity * factor);
-    if (fades && k > 0.0) {
-      const bool is_linear = mode == AttenuationMode::linear;
-      add(" fade_distance %.9g fade_power %d", is_linear ? k : std::sqrt(k), is_linear ? 1 : 2);
-    }
-    if (!is_point) {
-      add(" parallel point_at ");
-      add(camera_.target);
-    }
-    add("%s }\n", light.shadow && render_.shadows ? "" : " shadowless");
+    Color color = light.color * light.intensity * exposure_;
+    const bool is_linear = mode == AttenuationMode::linear;
+    const double fade = std::max((is_linear ? k : std::sqrt(k)) * space_.scale, kLeastFade);
+    if (mode != AttenuationMode::none) color *= 0.5 * (is_linear ? space_.scale / fade : std::pow(space_.scale / fade, 2));
+    const Vec3 place = space_.point(light.position);
+    text.vector(place), text.add(", "), text.color(color);
+    if (mode != AttenuationMode::none) text.add(" fade_distance %.12g fade_power %d", fade, is_linear ? 1 : 2);
+    if (!casts_shadow(light) && has_shadows() && !is_glossy()) text.add(" shadowless");
+    if (!shines_through(light)) return;
+    // The light's beams count from where they last meet this object: whatever is met on the way, or a bead around the
+    // light. Nothing is left between there and a surface.
+    text.add(" projected_through { union { object { Everything } sphere { "), text.vector(place);
+    text.add(", 0.01 } } }");
   }
 
-  // Three normals a triangle, as given; none for a flat mesh.
-  void add_mesh(const TriMesh& mesh) {
-    add("#declare Mesh%zu = mesh2 { vertex_vectors { %zu", meshes_.at(&mesh), mesh.positions.size());
-    for (const Vec3& p : mesh.positions) add(","), add(p);
-    add(" }\n");
-    if (!mesh.corner_normals.empty()) {
-      add("normal_vectors { %zu", 3 * mesh.corner_normals.size());
-      for (const auto& corners : mesh.corner_normals)
-        for (const Vec3& n : corners) add(","), add(n);
-      add(" }\n");
-    }
-    add("face_indices { %zu", mesh.triangles.size());
-    for (const auto& t : mesh.triangles) add(",<%u,%u,%u>", t[0], t[1], t[2]);
-    add(" }\n");
-    if (!mesh.corner_normals.empty()) {
-      add("normal_indices { %zu", mesh.triangles.size());
-      for (size_t t = 0; t < mesh.triangles.size(); ++t) add(",<%zu,%zu,%zu>", 3 * t, 3 * t + 1, 3 * t + 2);
-      add(" }\n");
-    }
-    add("}\n");
-  }
-
-  void add_pigment(const Paint& paint, const Body& body) {
-    add(" pigment { ");
-    if (const auto* color = std::get_if<Color>(&paint)) {
-      add_color(*color);
-    } else {
-      const Checker& checker = std::get<Checker>(paint);
-      add("checker ");
-      add_color(checker.a);
-      add(" ");
-      add_color(checker.b);
-      add(" scale %.9g", checker.size);
-      add_matrix(glm::inverse(body.pattern_from_local));
-      if (body.kind == BodyKind::box || body.kind == BodyKind::mesh)
-        differences_.insert("checkers on boxes and meshes have cells in three dimensions");
-    }
-    add(" }");
-  }
-
-  // Its ambient light is multiplied by the pigment: what ours is to diffuse.
-  Color ambient_over_diffuse(const Material& m) {
-    const auto first = [](const Paint& paint) {
-      const auto* color = std::get_if<Color>(&paint);
-      return color ? *color : std::get<Checker>(paint).a;
-    };
-    const Color diffuse = first(m.diffuse), ambient = first(m.ambient) * scene_.ambient;
-    Color out{0.0};
-    for (int c = 0; c < 3; ++c) {
-      if (diffuse[c] > 0.0) out[c] = ambient[c] / diffuse[c];
-      if (!(diffuse[c] > 0.0) && ambient[c] > 0.0)
-        differences_.insert("a colour that reflects no diffuse light has no ambient one");
-    }
-    return out;
-  }
-
-  void add_material(const Body& body) {
-    const Material& m = scene_.materials[body.material];
-    add_pigment(m.diffuse, body);
-    add(" finish { ambient ");
-    add_color(ambient_over_diffuse(m));
-    add(" diffuse 1 phong %.9g phong_size %.9g reflection { ", m.specular.g, m.shininess);
-    add_color(m.reflection);
-    add(" } }");
-    if (m.specular.r != m.specular.g || m.specular.b != m.specular.g)
-      differences_.insert("highlights are as strong in every channel as in green");
-    if (m.transmission != Color(0.0)) differences_.insert("nothing is transparent");
+  // Beams of a parallel light come from a plane through its place; behind that they go on without shadow.
+  void add_directional_light(PovText& text, const Light& light) const {
+    const Vec3 way = safe_normalize(light.direction);
+    const Vec3 place = (casts_shadow(light) ? -kFarLight : kFarLight) * way;
+    text.vector(place), text.add(", "), text.color(light.color * light.intensity * exposure_);
+    text.add(" parallel point_at "), text.vector(place + way * 1e3);
   }
 
   void add_body(const Body& body) {
-    switch (body.kind) {
-      case BodyKind::sphere:
-        add("sphere { 0, 1");
-        break;
-      case BodyKind::box:
-        add("box { ");
-        add(-body.half), add(", "), add(body.half);
-        break;
-      case BodyKind::plane:
-        add("plane { y, 0");
-        break;
-      case BodyKind::mesh:
-        add("object { Mesh%zu", meshes_.at(body.mesh.get()));
-        break;
+    const Material& material = scene_.materials[body.material];
+    const bool is_flat_box = body.kind == BodyKind::box && !is_solid(body);
+    if (body.kind == BodyKind::mesh) {
+      add_mesh_body(body, *body.mesh, body.mesh.get());
+    } else if (body.kind == BodyKind::box && (is_flat_box || is_checkered(material))) {
+      add_mesh_body(body, box_mesh(body.half), nullptr);
+    } else {
+      add_solid(body);
     }
-    add_material(body);
-    add_matrix(body.world_from_local);
-    add(" }\n");
+  }
+
+  // Spheres, boxes and planes along the axes as such: POV-Ray is faster with them than through a matrix.
+  void add_solid(const Body& body) {
+    const Mat4 place = space_.from_local(body.world_from_local);
+    const Mat3 linear(place);
+    const Vec3 middle(place[3]);
+    const bool is_upright = linear == Mat3(linear[0][0], 0, 0, 0, linear[1][1], 0, 0, 0, linear[2][2]);
+    const Vec3 sides = glm::abs(Vec3(linear[0][0], linear[1][1], linear[2][2]));
+    if (body.kind == BodyKind::plane) {
+      const Vec3 normal = safe_normalize(glm::transpose(glm::inverse(linear)) * Vec3(0, 1, 0));
+      objects_.add("plane { "), objects_.vector(normal);
+      objects_.add(", %.12g", glm::dot(normal, middle));
+    } else if (body.kind == BodyKind::sphere && is_upright && sides.x == sides.y && sides.x == sides.z) {
+      objects_.add("sphere { "), objects_.vector(middle), objects_.add(", %.12g", sides.x);
+    } else if (body.kind == BodyKind::sphere) {
+      objects_.add("sphere { 0, 1"), objects_.matrix(place);
+    } else if (is_upright) {
+      objects_.add("box { "), objects_.vector(middle - sides * body.half), objects_.add(", ");
+      objects_.vector(middle + sides * body.half);
+    } else {
+      Mat4 unit_box = place;
+      for (int axis = 0; axis < 3; ++axis) unit_box[axis] *= body.half[axis];
+      objects_.add("box { -1, 1"), objects_.matrix(unit_box);
+    }
+    const int flat_axis = body.kind == BodyKind::plane ? 1 : 3;
+    objects_.add(" texture { " + textures_.name_of(body.material, {is_solid(body), flat_axis}));
+    if (is_checkered(scene_.materials[body.material]))
+      objects_.matrix(place * glm::inverse(body.pattern_from_local));
+    objects_.add(" }");
+    end_body(body);
+  }
+
+  // key: of a mesh that other bodies may share; null: of this body alone.
+  void add_mesh_body(const Body& body, const TriMesh& mesh, const TriMesh* key) {
+    const bool has_faces = is_checkered(scene_.materials[body.material]);
+    if (mesh.triangles.empty()) return;
+    const PovMeshSpace space = pov_mesh_space(mesh, kPovSceneSize);
+    std::optional<PovFaceTextures> faces;
+    if (has_faces) {
+      PovText to_mesh;
+      to_mesh.matrix(space.mesh_from_local * glm::inverse(body.pattern_from_local));
+      faces.emplace();
+      for (int axis = 0; axis < 3; ++axis)
+        (*faces)[axis] = textures_.name_of(body.material, {is_solid(body), axis}) + to_mesh.str();
+    }
+    objects_.add("object { " + mesh_name(mesh, key, space, has_faces ? &body : nullptr, faces));
+    if (!has_faces) objects_.add(" texture { " + textures_.name_of(body.material, {is_solid(body), 3}) + " }");
+    objects_.matrix(space_.from_local(body.world_from_local * space.local_from_mesh));
+    end_body(body);
+  }
+
+  // Declares the mesh where it is met first.
+  std::string mesh_name(const TriMesh& mesh, const TriMesh* key, const PovMeshSpace& space, const Body* textured,
+                        const std::optional<PovFaceTextures>& faces) {
+    const auto material = textured ? std::optional(textured->material) : std::nullopt;
+    std::string name = "Mesh" + std::to_string(mesh_count_);
+    if (key) {
+      const auto [known, is_new] = mesh_names_.try_emplace({key, material, textured && is_solid(*textured)}, name);
+      if (!is_new) return known->second;
+    }
+    ++mesh_count_;
+    meshes_.add("#declare " + name + " = " + pov_mesh(mesh, space, faces) + "\n");
+    return name;
+  }
+
+  void end_body(const Body& body) {
+    const Material& m = scene_.materials[body.material];
+    const auto index = static_cast<size_t>(&body - bodies_.data());
+    if (m.transmission != Color(0.0)) objects_.add(" interior { ior %.9g }", counted_ior(body, m, index));
+    if (!scene_.lights.empty() && !has_shadows()) objects_.add(" no_shadow");
+    objects_.add(" }\n");
   }
 
   const Scene& scene_;
-  const Camera camera_;
-  const ImageSpec image_;
-  const RenderSpec render_;
-  std::map<const TriMesh*, size_t> meshes_;
-  std::set<std::string> differences_;
-  std::string text_;
+  const View& view_;
+  const std::vector<Body> bodies_;
+  const PovSpace space_;
+  const double exposure_;  // what all light is multiplied by, for POV-Ray's pictures end at 1
+  PovTextures textures_;
+  std::map<std::tuple<const TriMesh*, std::optional<MaterialId>, bool>, std::string> mesh_names_;
+  size_t mesh_count_ = 0;
+  PovText meshes_, objects_;
 };
 
 }  // namespace

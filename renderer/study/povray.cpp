@@ -1,99 +1,161 @@
 // SPDX-License-Identifier: Apache-2.0
-// The peer: POV-Ray, a program of its own. Its time is what it says that tracing took.
+// The peer at its best: many settings of POV-Ray's anti-aliasing are tried once each; those that come to an error in the
+// least processor time are then drawn as often as our own runs, and are its series.
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 
-#include "renderer/base/child_process.h"
-#include "renderer/film/image_io.h"
 #include "renderer/study/pov_scene.h"
+#include "renderer/study/povray_run.h"
 #include "renderer/study/studio.h"
 
 namespace tilelight::study {
 namespace {
 
-constexpr const char* kProgram = "povray";
-
-// The number that the pattern's first group catches in the log.
-double number_after(const std::string& log, const char* pattern) {
-  std::smatch match;
-  if (!std::regex_search(log, match, std::regex(pattern))) throw std::runtime_error("POV-Ray says no more: " + log);
-  return std::atof(match[1].str().c_str());
-}
-
-// side * side samples in every pixel that differs at all from a neighbour, beside the one that every pixel has; side 1:
-// that one alone.
-Drawing draw(const TemporaryFolder& folder, const ImageSpec& image, int threads, int side) {
-  std::vector<std::string> words{"+I" + folder.file("scene.pov"),
-                                 "+O" + folder.file("out.png"),
-                                 "+W" + std::to_string(image.width),
-                                 "+H" + std::to_string(image.height),
-                                 "+WT" + std::to_string(threads),
-                                 "+FN16",
-                                 "-D",
-                                 "File_Gamma=srgb"};
-  if (side > 1) {
-    words.insert(words.end(), {"+AM1", "+A0.0", "+R" + std::to_string(side)});
-  } else {
-    words.emplace_back("-A");
-  }
-  const ChildResult result = run_child(kProgram, words, "", {}, ChildErrors::in_output);
-  if (result.status != 0) throw std::runtime_error("POV-Ray failed: " + result.output);
-  std::ifstream file(folder.file("out.png"), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  auto linear = decode_linear(bytes, ImageFormat::png, int64_t{1} << 26);
-  if (!linear) throw std::runtime_error("POV-Ray's image: " + linear.error().detail);
+struct Trial {
+  PovSetting setting;
   Drawing drawing;
-  drawing.image = std::make_shared<const Image>(std::move(*linear));
-  drawing.time_ms = 1e3 * number_after(result.output, R"(Trace Time:[^(]*\(([0-9.]+) seconds\))");
-  drawing.spp = side > 1 ? number_after(result.output, R"(Smpls/Pxl: *([0-9.]+))") : 1.0;
-  return drawing;
-}
+  double rmse;
+};
 
-// Throws std::exception where POV-Ray is not there, fails, or says something else than it used to.
-void draw_beside(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study) {
-  const TemporaryFolder folder;
-  const PovScene pov = pov_scene(scene, view);
-  std::ofstream(folder.file("scene.pov")) << pov.text;
-  StudySeries series{
-      .name = "POV-Ray", .method = "POV-Ray", .shading = "phong", .sampling = "grid", .precision = "double"};
-  const std::vector<int> sides{1, 2, 3, 4, 6, 8};
-  std::vector<std::vector<Drawing>> drawings(sides.size());
-  for (int round = 0; round < studio.options().rounds; ++round) {
-    for (size_t i = 0; i < sides.size(); ++i) {
-      studio.stop_if_cancelled();
-      drawings[i].push_back(draw(folder, view.image, studio.pool().thread_count(), sides[i]));
+class Peer {
+ public:
+  Peer(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study)
+      : studio_(studio),
+        image_(view.image),
+        truth_(truth),
+        shown_truth_(displayed_image(truth, view.image.exposure)),
+        study_(study),
+        scene_(pov_scene(scene, view)),
+        povray_(scene_, view.image, studio.pool().thread_count()) {}
+
+  // Throws std::exception where POV-Ray cannot be used; the study is as it was then.
+  void draw_beside() {
+    choose_bounding();
+    sweep();
+    mark_front();
+    StudySeries series = drawn_as_often(chosen());
+    study_.series.push_back(std::move(series));
+    for (const Trial& trial : trials_) {
+      study_.peer_trials.push_back({trial.setting.words(), trial.drawing.spp, trial.drawing.time_ms,
+                                    trial.drawing.cpu_ms, trial.rmse, is_on_front_[&trial - trials_.data()]});
+    }
+    add_notes();
+  }
+
+ private:
+  const Trial& try_once(const PovSetting& setting) {
+    studio_.tell("POV-Ray " + setting.words(), 0.9);
+    Trial trial{setting, povray_.draw(setting), 0.0};
+    trial.rmse = rms_difference(displayed_image(*trial.drawing.image, image_.exposure), shown_truth_);
+    return trials_.emplace_back(std::move(trial));
+  }
+
+  // The faster of its two trees.
+  void choose_bounding() {
+    PovSetting setting{.method = 1, .threshold = 0.0, .depth = 2};
+    const double boxes_ms = povray_.draw(setting).cpu_ms;
+    setting.bounding = 2;
+    if (povray_.draw(setting).cpu_ms < boxes_ms) bounding_ = 2;
+  }
+
+  // Deeper as long as that helps. Jitter only where the same without was worth while.
+  void sweep() {
+    try_once({.bounding = bounding_});
+    constexpr double kHelps = 0.97;
+    for (const int method : {1, 2}) {
+      for (const double threshold : {0.3, 0.1, 0.03, 0.01, 0.003, 0.0}) {
+        double last = INFINITY;
+        for (const int depth : method == 1 ? std::vector{2, 3, 4, 6, kPovMostDepth} : std::vector{1, 2, 3, 4, 5}) {
+          if (method == 2 && threshold == 0.0 && depth > 3) break;  // all of a grid of 16 x 16
+          const double rmse = try_once({method, threshold, depth, false, bounding_}).rmse;
+          if (rmse > kHelps * last) break;
+          last = rmse;
+        }
+      }
+    }
+    mark_front();
+    std::vector<PovSetting> worth_while;
+    for (size_t i = 0; i < trials_.size(); ++i)
+      if (is_on_front_[i] && trials_[i].setting.method > 0) worth_while.push_back(trials_[i].setting);
+    for (PovSetting setting : worth_while) {
+      setting.has_jitter = true;
+      try_once(setting);
     }
   }
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const std::string side = std::to_string(sides[i]);
-    StudyRun run;
-    run.setting = sides[i] == 1 ? "1 sample" : side + " x " + side + " where pixels differ";
-    time_run(run, drawings[i]);
-    judge(run, drawings[i], truth, view.image.exposure, studio.pool());
-    series.runs.push_back(std::move(run));
+
+  void mark_front() {
+    std::vector<Sample> samples;
+    for (const Trial& trial : trials_) samples.push_back({trial.drawing.cpu_ms, trial.rmse});
+    is_on_front_ = pareto_front(samples);
   }
-  study.series.push_back(std::move(series));
-  constexpr int kFinest = 12;
-  const Image finest = *draw(folder, view.image, studio.pool().thread_count(), kFinest).image;
-  std::ostringstream note;
-  note << "POV-Ray's finest picture (" << kFinest << " x " << kFinest << " samples) is "
-       << rms_difference(displayed_image(finest, view.image.exposure), displayed_image(truth, view.image.exposure))
-       << " off ours, rmse: no sampling brings its first curve below that.";
-  study.notes.push_back(note.str());
-  for (const std::string& difference : pov.differences) study.notes.push_back("In POV-Ray " + difference + ".");
-}
+
+  // For errors that fall by the square root of two, the cheapest setting that reaches each.
+  std::vector<PovSetting> chosen() const {
+    std::vector<const Trial*> front;
+    for (size_t i = 0; i < trials_.size(); ++i)
+      if (is_on_front_[i]) front.push_back(&trials_[i]);
+    std::sort(front.begin(), front.end(), [](const Trial* a, const Trial* b) { return a->drawing.cpu_ms < b->drawing.cpu_ms; });
+    std::vector<PovSetting> out;
+    double level = INFINITY;
+    for (const Trial* trial : front) {
+      if (trial->rmse > level && trial != front.back()) continue;
+      out.push_back(trial->setting);
+      level = trial->rmse / std::sqrt(2.0);
+    }
+    return out;
+  }
+
+  StudySeries drawn_as_often(const std::vector<PovSetting>& settings) const {
+    StudySeries series{.name = "POV-Ray", .method = "POV-Ray", .shading = "phong", .sampling = "its best settings",
+                       .precision = "double"};
+    std::vector<std::vector<Drawing>> drawings(settings.size());
+    for (int round = 0; round < studio_.options().rounds; ++round) {
+      for (size_t i = 0; i < settings.size(); ++i) {
+        studio_.tell("POV-Ray, round " + std::to_string(round + 1) + ": " + settings[i].words(), 0.95);
+        drawings[i].push_back(povray_.draw(settings[i]));
+      }
+    }
+    for (size_t i = 0; i < settings.size(); ++i) {
+      StudyRun run;
+      run.setting = settings[i].words();
+      time_run(run, drawings[i]);
+      judge(run, drawings[i], truth_, image_.exposure, studio_.pool());
+      series.runs.push_back(std::move(run));
+    }
+    return series;
+  }
+
+  void add_notes() {
+    const auto least = std::min_element(trials_.begin(), trials_.end(),
+                                        [](const Trial& a, const Trial& b) { return a.rmse < b.rmse; });
+    std::ostringstream note;
+    note << "POV-Ray's best picture (" << least->setting.words() << ", " << least->drawing.spp
+         << " samples a pixel) is " << least->rmse << " off ours, rmse: its curve ends there.";
+    study_.notes.push_back(note.str());
+    if (scene_.differences.empty()) study_.notes.emplace_back("POV-Ray draws all of this scene as we do.");
+    for (const std::string& difference : scene_.differences)
+      study_.notes.push_back("POV-Ray draws otherwise: " + difference);
+  }
+
+  const Studio& studio_;
+  const ImageSpec image_;
+  const Image& truth_;
+  const DisplayedImage shown_truth_;
+  Study& study_;
+  const PovScene scene_;
+  const PovRay povray_;
+  int bounding_ = 1;
+  std::vector<Trial> trials_;
+  std::vector<bool> is_on_front_;  // by trial: no other has less error in less processor time
+};
 
 }  // namespace
 
 void add_povray(const Studio& studio, const Scene& scene, const View& view, const Image& truth, Study& study) {
   try {
-    draw_beside(studio, scene, view, truth, study);
+    Peer(studio, scene, view, truth, study).draw_beside();
   } catch (const std::exception& error) {
     studio.stop_if_cancelled();  // Ctrl-C reaches POV-Ray too
     study.notes.push_back(std::string("POV-Ray is not beside ours (Debian: apt install povray): ") + error.what());

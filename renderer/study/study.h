@@ -78,6 +78,13 @@ struct OracleRow {
   std::optional<bool> is_rmse_inside = {};  // none: no error was predicted
 };
 
+// One setting of another program, tried once.
+struct PeerTrial {
+  std::string setting;
+  double spp = 0.0, time_ms = 0.0, cpu_ms = 0.0, rmse = 0.0;
+  bool is_on_front = false;  // no other trial has less error in less processor time
+};
+
 struct Study {
   std::string scene_name, scene_id;
   std::string isa, kernel;
@@ -91,6 +98,7 @@ struct Study {
   std::vector<KnobRow> knobs;
   StudyComponents components;
   std::vector<OracleRow> oracle;
+  std::vector<PeerTrial> peer_trials;  // the sweep by which the peer's settings were chosen; empty without a peer
   std::vector<std::string> notes;  // what was left out, and why
 
   std::shared_ptr<const Image> reference, picture;  // linear; the picture is the finest one of the first series

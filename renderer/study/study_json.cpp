@@ -86,6 +86,15 @@ std::string study_json(const Study& study) {
                       {"time_inside", row.is_time_inside},
                       {"rmse_inside", row.is_rmse_inside ? Json(*row.is_rmse_inside) : Json(nullptr)}});
   }
+  Json trials = Json::array();
+  for (const PeerTrial& trial : study.peer_trials) {
+    trials.push_back({{"setting", trial.setting},
+                      {"spp", trial.spp},
+                      {"time_ms", trial.time_ms},
+                      {"cpu_ms", trial.cpu_ms},
+                      {"rmse", trial.rmse},
+                      {"pareto", trial.is_on_front}});
+  }
   const Json out = {
       {"scene", study.scene_name},
       {"scene_sha256", study.scene_id},
@@ -109,6 +118,7 @@ std::string study_json(const Study& study) {
         {"rounding_rmse", study.components.rounding},
         {"quantisation_rmse", study.components.quantisation}}},
       {"oracle", std::move(oracle)},
+      {"peer_trials", std::move(trials)},
       {"notes", study.notes}};
   return out.dump(2) + "\n";
 }
