@@ -4,10 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/scene/words.h"
 
 namespace tilelight::cli {
@@ -46,7 +49,7 @@ void add_scene_option(CLI::App& app, std::string& path) {
 CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
   CLI::Option* output = app.add_option(
       "-o,--output", arguments.output,
-      "The image: .png, .jpg, .exr (linear, half) or, of the lines that --algorithm roberts draws, .svg");
+      "The image: .png, .jpg, .exr (linear, 32-bit floats) or, of the lines that --algorithm roberts draws, .svg");
   add_view_options(app, arguments.view);
   app.add_option("--threads", arguments.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
   app.add_option("--tile", arguments.tile_px,
@@ -174,8 +177,7 @@ void add_chess(CLI::App& app, Run& run) {
     if (output->count() + scene->count() == 0) throw CLI::RequiredError("--output or --scene");
     run = [options] {
       if (const auto position = parse_fen(options->fen); !position) {
-        std::fprintf(stderr, "tilelight: %s\n", position.error().c_str());
-        return kBadInput;
+        return complain(kBadInput, position.error());
       }
       const std::string text = chess_scene_json(options->fen, options->detail);
       if (!options->scene) return run_render({"<chess>", text}, options->render);
@@ -272,13 +274,13 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
-      std::fprintf(
-          stderr,
-          "tilelight: no command is called '%s'; there are render, plan, report, compare, chess, check and schema\n",
-          words[0].c_str());
-      return kBadInput;
+      return complain(kBadInput, "no command is called '" + words[0] +
+                                     "'; there are render, plan, report, compare, chess, check and schema");
     }
-    return app.exit(error) == 0 ? kOk : kBadInput;  // prints the help, the version or what is wrong
+    std::ostringstream wrong;  // or it is the help or the version, for standard output
+    const int code = app.exit(error, std::cout, wrong);
+    std::fputs(printable_lines(wrong.str()).c_str(), stderr);
+    return code == 0 ? kOk : kBadInput;
   }
   return run();
 }

@@ -117,7 +117,11 @@ class Render {
 struct ReportIdentity {
   std::string version, scene_id, image_hash;
   std::optional<double> rounding = {};  // as find_rounding has it
+  std::optional<int64_t> clamped = {};  // values of the image that after exposure no 32-bit float can hold
 };
+// What the report tells that nobody should overlook, as the scene's own warnings are told.
+std::vector<SceneWarning> report_warnings(const RenderReport& report);
+
 // SHA-256 of the linear image: floats as they lie in memory, little-endian, RGB, row by row.
 std::string image_hash(const Image& image);
 
