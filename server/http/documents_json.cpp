@@ -72,7 +72,7 @@ Json brief_json(const JobRecord& record) {
 
 std::string report_document(const JobRecord& record, const std::string& image_hash,
                             const std::optional<double>& rounding) {
-  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding};
+  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding, record.status.clamped};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
@@ -80,7 +80,11 @@ std::string job_json(const JobRecord& record) {
   const WorkStatus& status = record.status;
   Json out = brief_json(record);
   out["timings"] = timings_json(status.timings);
-  out["warnings"] = warnings_json(record.warnings, status.plan ? &*status.plan : nullptr);
+  auto warnings = record.warnings;
+  for (SceneWarning& warning : report_warnings(status.report)) warnings.push_back(std::move(warning));
+  if (status.clamped.value_or(0) > 0)
+    warnings.push_back({"/image/exposure", "clamped", clamped_warning(*status.clamped, ImageFormat::exr)});
+  out["warnings"] = warnings_json(warnings, status.plan ? &*status.plan : nullptr);
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
   out["report"] = has_report ? Json::parse(report_document(record, "")) : Json(nullptr);
@@ -168,6 +172,9 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
 
 std::string limits_document(const Config& config) {
   Json out = Json::parse(limits_json(config.limits));
+  for (const ImageFormat format : image_formats(true))
+    out["formats"][std::string(image_format_name(format))] = {
+        {"image_side", std::min(config.limits.image_side, max_image_side(format))}};
   out["server"] = {{"max_queue", config.max_queue},     {"max_sessions", config.max_sessions},
                    {"max_results", config.max_results}, {"films_mb", config.films_mb},
                    {"film_keep_s", config.film_keep_s}, {"max_wait_s", 60},

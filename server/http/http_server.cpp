@@ -14,7 +14,7 @@ std::string refuse(Services& services, const Problem& problem, const std::string
   return closing_response(problem_response(problem, id).with("Request-Id", id));
 }
 
-Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) {
+Served serve(Services& services, const std::vector<Route>& routes, const Exchange& exchange) try {
   auto served = serve_head(exchange.head, false, [&](Request&& request) {
     request.body = exchange.body;
     request.client = exchange.client;
@@ -26,6 +26,12 @@ Served serve(Services& services, const std::vector<Route>& routes, const Exchang
   // The front has checked the head, so this is rare; it is logged and counted like the front's own refusals.
   return {refuse(services, {400, "bad_request", "the request was not understood", {}, {}}, exchange.client), nullptr,
           true};
+} catch (const std::exception& bug) {
+  // Beyond what dispatch() catches: memory was short when an answer was put together. No answer, and the connection
+  // closes; nothing that a request does may end the process.
+  services.metrics.add("tilelight_http_refused_total", "status=\"none\"");
+  services.log.write(LogLevel::error, "bug", {{"client", exchange.client}, {"what", std::string(bug.what())}});
+  return {"", nullptr, true};
 }
 
 }  // namespace
