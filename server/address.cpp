@@ -2,9 +2,12 @@
 #include "server/address.h"
 
 #include <arpa/inet.h>
+#include <netdb.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 
 namespace tilelight::server {
 namespace {
@@ -68,6 +71,37 @@ Result<Network> parse_network(std::string_view text) {
                                  std::to_string(bits) + "; write the one that is meant");
   }
   return network;
+}
+
+Result<std::vector<std::string>> resolve_host(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  // An empty name would be taken for none, which stands for every address.
+  const int code = host.empty() ? EAI_NONAME : getaddrinfo(host.c_str(), nullptr, &hints, &found);
+  if (code != 0) return fail("no_address", "no address of '" + host + "' is known: " + gai_strerror(code));
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, freeaddrinfo);
+  std::vector<std::string> addresses;
+  for (const addrinfo* a = found; a; a = a->ai_next) {
+    char text[NI_MAXHOST] = "";
+    if (getnameinfo(a->ai_addr, a->ai_addrlen, text, sizeof text, nullptr, 0, NI_NUMERICHOST) != 0) continue;
+    if (std::find(addresses.begin(), addresses.end(), text) == addresses.end()) addresses.emplace_back(text);
+  }
+  if (addresses.empty()) return fail("no_address", "'" + host + "' has no address that can be listened on");
+  return addresses;
+}
+
+bool is_loopback(const std::string& address) {
+  const auto parsed = parse_address(std::string_view(address).substr(0, address.find('%')));
+  static const Network kV4 = *parse_network("127.0.0.0/8"), kV6 = *parse_network("::1");
+  return parsed && (kV4.holds(*parsed) || kV6.holds(*parsed));
+}
+
+bool is_any_address(const std::string& address) {
+  const auto parsed = parse_address(std::string_view(address).substr(0, address.find('%')));
+  static const Network kV4 = *parse_network("0.0.0.0"), kV6 = *parse_network("::");
+  return parsed && (kV4.holds(*parsed) || kV6.holds(*parsed));
 }
 
 }  // namespace tilelight::server

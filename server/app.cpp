@@ -19,7 +19,6 @@ bool log_as_json(LogFormat format) {
 
 FrontOptions front_options(const Config& config) {
   FrontOptions options;
-  options.host = config.host;
   options.port = config.port;
   options.workers = config.max_waiting + kFreeWorkers;
   options.limits.body_bytes = config.limits.bytes;
@@ -37,7 +36,6 @@ JobQueue::Options queue_options(const Config& config) {
 
 FrontOptions admin_options(const Config& config) {
   FrontOptions options;
-  options.host = config.admin_host;
   options.port = config.admin_port;
   options.workers = 2;
   options.max_connections = 64;
@@ -46,14 +44,36 @@ FrontOptions admin_options(const Config& config) {
   return options;
 }
 
+// Listens on the first of the host's addresses that is to be had. flag: which port to change where there is none.
+Result<std::unique_ptr<HttpServer>> bind_first(const std::vector<std::string>& addresses, const std::string& host,
+                                               FrontOptions options, const std::vector<Route>& routes,
+                                               Services& services, const std::string& flag) {
+  Error error;
+  for (const std::string& address : addresses.empty() ? std::vector{host} : addresses) {
+    options.host = address;
+    auto server = HttpServer::bind(options, routes, services);
+    if (server) return server;
+    error = server.error();
+  }
+  return fail(error.code, error.detail + " (" + flag + ")");
+}
+
+std::string url_of(const std::string& host, const std::vector<std::string>& addresses, int port) {
+  const bool is_any = is_any_address(addresses.empty() ? host : addresses.front());
+  const std::string name = is_any ? "localhost" : host.find(':') == std::string::npos ? host : "[" + host + "]";
+  return "http://" + name + ":" + std::to_string(port) + "/";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<App>> App::open(Config config, const Clock& clock) {
   std::unique_ptr<App> app(new App(std::move(config), clock));
-  auto http = HttpServer::bind(front_options(app->config_), api_routes(), app->services_);
-  if (!http) return fail(http.error().code, http.error().detail + " (--port)");
-  auto admin = HttpServer::bind(admin_options(app->config_), admin_routes(), app->services_);
-  if (!admin) return fail(admin.error().code, admin.error().detail + " (--admin-port)");
+  const Config& own = app->config_;
+  auto http = bind_first(own.host_addresses, own.host, front_options(own), api_routes(), app->services_, "--port");
+  if (!http) return ::tl::unexpected(http.error());
+  auto admin = bind_first(own.admin_addresses, own.admin_host, admin_options(own), admin_routes(), app->services_,
+                          "--admin-port");
+  if (!admin) return ::tl::unexpected(admin.error());
   app->http_ = std::move(*http);
   app->admin_ = std::move(*admin);
   app->add_gauges();
@@ -100,6 +120,8 @@ void App::add_gauges() {
   metrics_.gauge("tilelight_http_unread_bytes", "Memory of responses that clients have not read yet.",
                  [this] { return static_cast<double>(http_->unread_bytes()); });
   metrics_.gauge("tilelight_pool_threads", "Threads that render.", [this] { return pool_.thread_count(); });
+  metrics_.gauge("tilelight_log_lines_dropped_total", "Log lines that nobody read, or that could not be written.",
+                 [this] { return static_cast<double>(log_.dropped()); });
   metrics_.gauge("process_cpu_seconds_total", "Processor time of the whole process, user and system.", cpu_seconds);
   metrics_.gauge("process_resident_memory_bytes", "Memory of the process that lies in RAM.", resident_bytes);
 }
@@ -132,11 +154,7 @@ void App::stop() {
   housekeeper_ = {};
 }
 
-std::string App::url() const {
-  const bool is_any = config_.host == "0.0.0.0" || config_.host == "::";
-  std::string host = is_any ? "localhost" : config_.host;
-  if (host.find(':') != std::string::npos) host = "[" + host + "]";
-  return "http://" + host + ":" + std::to_string(port()) + "/";
-}
+std::string App::url() const { return url_of(config_.host, config_.host_addresses, port()); }
+std::string App::admin_url() const { return url_of(config_.admin_host, config_.admin_addresses, admin_port()); }
 
 }  // namespace tilelight::server

@@ -25,6 +25,7 @@ class App {
   int port() const { return http_->port(); }
   int admin_port() const { return admin_->port(); }
   std::string url() const;  // of the page
+  std::string admin_url() const;
   Metrics& metrics() { return metrics_; }
   const Log& log() const { return log_; }
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <optional>
 
 namespace tilelight::server {
 namespace {
@@ -120,14 +121,37 @@ Result<void> apply(Config& config, const Setting& setting, const std::string& va
   return {};
 }
 
+// What a file must say a setting with. Its name for the value tells.
+ConfigMember::Type type_of(const Setting& setting) {
+  if (setting.value_name.empty()) return ConfigMember::Type::truth;
+  for (const std::string_view whole : {"N", "MB", "S", "MS"})
+    if (setting.value_name == whole) return ConfigMember::Type::whole;
+  return ConfigMember::Type::text;
+}
+
+std::string type_name(ConfigMember::Type type) {
+  return type == ConfigMember::Type::truth   ? "true or false"
+         : type == ConfigMember::Type::whole ? "a whole number"
+                                             : "a string";
+}
+
 Result<void> apply_file(Config& config, const std::string& path) {
   const auto members = read_config_file(path);
   if (!members) return ::tl::unexpected(members.error());
-  for (const auto& [key, value] : *members) {
-    const Setting* setting = find_setting(with(key, '_', '-'));
-    if (!setting)
-      return fail("unknown_name", path + ": there is no setting '" + key + "' (tilelightd --help names all)");
-    if (auto done = apply(config, *setting, value, path + ": " + key); !done) return done;
+  std::map<const Setting*, const ConfigMember*> seen;  // max_queue and max-queue are one setting
+  for (const ConfigMember& member : *members) {
+    const std::string where =
+        path + ":" + std::to_string(member.line) + ":" + std::to_string(member.column) + ": '" + member.key + "'";
+    const Setting* setting = find_setting(with(member.key, '_', '-'));
+    if (!setting) return fail("unknown_name", where + " is no setting (tilelightd --help names all)");
+    const auto [first, is_new] = seen.emplace(setting, &member);
+    if (!is_new)
+      return fail("duplicate_name",
+                  where + " comes twice; line " + std::to_string(first->second->line) + " has it before");
+    if (member.type != type_of(*setting))
+      return fail("wrong_type", where + " is " + type_name(member.type) + ", " + member.value +
+                                    "; allowed: " + type_name(type_of(*setting)));
+    if (auto done = apply(config, *setting, member.value, where); !done) return done;
   }
   return {};
 }
@@ -144,7 +168,17 @@ Result<void> apply_environment(Config& config, const std::map<std::string, std::
   return {};
 }
 
-bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0; }
+// Looks a host up. Without a word of assent every address that it has must be this machine's alone.
+Result<std::vector<std::string>> checked_addresses(const std::string& flag, const std::string& host, bool allow_open,
+                                                   const Resolve& resolve) {
+  auto addresses = resolve(host);
+  if (!addresses) return fail(addresses.error().code, flag + ": " + addresses.error().detail);
+  const auto open = std::find_if_not(addresses->begin(), addresses->end(), is_loopback);
+  if (open == addresses->end() || allow_open) return addresses;
+  return fail("public_bind", flag + " " + host + (*open == host ? "" : ", which is " + *open + ",") +
+                                 " can be reached from other machines and there are no keys; say --allow-open if "
+                                 "that is meant (a proxy or a firewall in front), or bind 127.0.0.1");
+}
 
 }  // namespace
 
@@ -200,11 +234,12 @@ std::map<std::string, std::string> process_environment() {
 }
 
 Result<ConfigRequest> load_config(int argc, const char* const* argv,
-                                  const std::map<std::string, std::string>& environment) {
+                                  const std::map<std::string, std::string>& environment, const Resolve& resolve) {
   CLI::App app("Tilelight render server: POST a scene, get an image.", "tilelightd");
   app.set_version_flag("--version", "tilelightd " TILELIGHT_VERSION);
-  std::string file;
-  if (const auto named = environment.find("TILELIGHT_CONFIG"); named != environment.end()) file = named->second;
+  std::optional<std::string> file;
+  if (const auto named = environment.find("TILELIGHT_CONFIG"); named != environment.end() && !named->second.empty())
+    file = named->second;
   app.add_option("--config", file, "JSON file with these settings, e.g. {\"max_queue\": 64}")->type_name("FILE");
   std::vector<std::pair<const Setting*, std::string>> flags;
   for (const Setting& setting : settings()) {
@@ -231,8 +266,8 @@ Result<ConfigRequest> load_config(int argc, const char* const* argv,
     return fail("bad_flag", std::string(error.what()) + " (tilelightd --help names all settings)");
   }
   Config& config = request.config;
-  if (!file.empty()) {
-    if (auto done = apply_file(config, file); !done) return ::tl::unexpected(done.error());
+  if (file) {
+    if (auto done = apply_file(config, *file); !done) return ::tl::unexpected(done.error());
   }
   if (auto done = apply_environment(config, environment); !done) return ::tl::unexpected(done.error());
   for (const auto& [setting, value] : flags) {
@@ -240,12 +275,12 @@ Result<ConfigRequest> load_config(int argc, const char* const* argv,
       return ::tl::unexpected(done.error());
     }
   }
-  const bool is_admin_public = !is_loopback(config.admin_host);
-  if ((is_admin_public || !is_loopback(config.host)) && !config.allow_open) {
-    return fail("public_bind", (is_admin_public ? "--admin-host " + config.admin_host : "--host " + config.host) +
-                                   " can be reached from other machines and there are no keys; say --allow-open if "
-                                   "that is meant (a proxy or a firewall in front), or bind 127.0.0.1");
-  }
+  auto addresses = checked_addresses("--host", config.host, config.allow_open, resolve);
+  if (!addresses) return ::tl::unexpected(addresses.error());
+  config.host_addresses = std::move(*addresses);
+  addresses = checked_addresses("--admin-host", config.admin_host, config.allow_open, resolve);
+  if (!addresses) return ::tl::unexpected(addresses.error());
+  config.admin_addresses = std::move(*addresses);
   return request;
 }
 

@@ -41,6 +41,10 @@ struct Config {
   LogFormat log_format = LogFormat::automatic;
   Limits limits;
 
+  // What the hosts stand for, numeric, as load_config has checked it: what is bound, so that no second look-up can say
+  // otherwise. Empty: the hosts are addresses themselves.
+  std::vector<std::string> host_addresses, admin_addresses;
+
   // Not for operators: the server's patience, which tests shorten.
   double head_timeout_ms = 10'000.0;
   double drain_ms = 2'000.0;  // for running renders to end by themselves when the server stops
@@ -54,9 +58,10 @@ struct ConfigRequest {
   std::string text;
 };
 
-// Reads file, environment and flags. The error is a sentence for the operator.
+// Reads file, environment and flags, and looks the hosts up. The error is a sentence for the operator.
 Result<ConfigRequest> load_config(int argc, const char* const* argv,
-                                  const std::map<std::string, std::string>& environment);
+                                  const std::map<std::string, std::string>& environment,
+                                  const Resolve& resolve = resolve_host);
 
 // The process's environment as a map.
 std::map<std::string, std::string> process_environment();
@@ -70,7 +75,14 @@ struct Setting {
 };
 const std::vector<Setting>& settings();
 
-// The members of a flat JSON object as text: {"port": 80, "quiet": true} -> {port: "80", quiet: "true"}.
-Result<std::map<std::string, std::string>> read_config_file(const std::string& path);
+// A member of a configuration file, which is one flat JSON object, with its value as text.
+struct ConfigMember {
+  enum class Type { text, whole, truth };
+  std::string key, value;
+  Type type = Type::text;
+  int line = 0, column = 0;  // of the key, from 1
+};
+// All members, in their order. Errors: no_file, not_json, wrong_type; they name the place.
+Result<std::vector<ConfigMember>> read_config_file(const std::string& path);
 
 }  // namespace tilelight::server

@@ -4,11 +4,16 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <cstring>
+#include <exception>
 
 #include "server/app.h"
+#include "server/descriptor_writer.h"
 
 namespace tilelight::server {
 namespace {
@@ -30,7 +35,21 @@ void keep_freed_memory() {
 #endif
 }
 
+// False, with errno: it could not be written, or nobody has read it for seconds.
+bool say(int descriptor, const std::string& text) {
+  constexpr double kPatienceMs = 5'000.0;
+  DescriptorWriter writer(descriptor);
+  writer.limit(kPatienceMs);
+  return writer.write(text);
+}
+
+int complain(int code, const std::string& what) {
+  say(STDERR_FILENO, printable_lines("tilelightd: " + what) + "\n");
+  return code;
+}
+
 int run(int argc, const char* const* argv) {
+  hold_standard_streams();
   // Blocked in all threads; sigwait below takes them. Before any thread exists.
   sigset_t ending;
   sigemptyset(&ending);
@@ -42,34 +61,30 @@ int run(int argc, const char* const* argv) {
   keep_freed_memory();
 
   const auto request = load_config(argc, argv, process_environment());
-  if (!request) {
-    std::fprintf(stderr, "tilelightd: %s\n", request.error().detail.c_str());
-    return 2;
-  }
+  if (!request) return complain(2, request.error().detail);
   if (request->help_or_version) {
-    std::fputs(request->text.c_str(), stdout);
-    return 0;
+    if (say(STDOUT_FILENO, request->text)) return 0;
+    return complain(1, std::string("cannot write standard output: ") + std::strerror(errno));
   }
   const SystemClock clock;
   auto app = App::open(request->config, clock);
-  if (!app) {
-    std::fprintf(stderr, "tilelightd: %s\n", app.error().detail.c_str());
-    return 1;
-  }
+  if (!app) return complain(1, app.error().detail);
   (*app)->start();
+  const Log& log = (*app)->log();
   const Config& config = request->config;
   if (config.allow_open) {
-    (*app)->log().write(
-        LogLevel::warn, "open",
-        {{"host", config.host}, {"detail", "whoever reaches this address may render: there are no keys"}});
+    log.write(LogLevel::warn, "open",
+              {{"host", config.host}, {"detail", "whoever reaches this address may render: there are no keys"}});
   }
-  std::printf("Tilelight is at %s\nHealth and metrics are at http://%s:%d/metrics\n", (*app)->url().c_str(),
-              config.admin_host.c_str(), (*app)->admin_port());
-  std::fflush(stdout);
+  const std::string url = (*app)->url(), admin_url = (*app)->admin_url();
+  if (!say(STDOUT_FILENO, "Tilelight is at " + url + "\nHealth and metrics are at " + admin_url + "metrics\n")) {
+    log.write(LogLevel::warn, "unannounced",
+              {{"url", url}, {"admin", admin_url}, {"cause", std::string("standard output: ") + std::strerror(errno)}});
+  }
 
   int signal = 0;
   sigwait(&ending, &signal);
-  (*app)->log().write(LogLevel::info, "stopping", {{"signal", int64_t{signal}}});
+  log.write(LogLevel::info, "stopping", {{"signal", int64_t{signal}}});
   (*app)->stop();
   return 0;
 }
@@ -77,4 +92,11 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 }  // namespace tilelight::server
 
-int main(int argc, char** argv) { return tilelight::server::run(argc, argv); }
+int main(int argc, char** argv) {
+  using namespace tilelight::server;
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // what the machine refuses before a request comes: threads, memory
+    return complain(1, std::string("cannot start: ") + error.what());
+  }
+}

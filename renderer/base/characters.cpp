@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/base/characters.h"
 
+#include <utf8proc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
@@ -8,19 +10,9 @@
 namespace tilelight {
 namespace {
 
-struct CodeRange {
-  char32_t first, last;
-};
-
-bool is_in(const auto& ranges, char32_t code) {
-  return std::any_of(std::begin(ranges), std::end(ranges),
-                     [code](const CodeRange& range) { return code >= range.first && code <= range.last; });
-}
-
-template <class... Numbers>
-std::string formatted(const char* format, Numbers... numbers) {
-  char text[24];
-  std::snprintf(text, sizeof text, format, numbers...);
+std::string formatted(const char* format, unsigned value) {
+  char text[16];
+  std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
@@ -28,47 +20,49 @@ std::string escape(char32_t code) {
   if (code == U'\n') return "\\n";
   if (code == U'\r') return "\\r";
   if (code == U'\t') return "\\t";
-  return formatted(code > 0xFFFF ? "\\u{%x}" : "\\u%04x", static_cast<unsigned>(code));
+  return formatted(code < 0x10000 ? "\\u%04x" : "\\U%08x", static_cast<unsigned>(code));
+}
+
+// As JSON has it: beyond U+FFFF a pair of surrogates.
+std::string escape_json(char32_t code) {
+  if (code < 0x10000) return formatted("\\u%04x", static_cast<unsigned>(code));
+  return formatted("\\u%04x", 0xd800 + static_cast<unsigned>((code - 0x10000) >> 10)) +
+         formatted("\\u%04x", 0xdc00 + static_cast<unsigned>(code & 0x3ff));
+}
+
+// keep(code): whether the character stays as it is. escape(code): what stands for the others.
+template <class Keep, class Escape>
+std::string escaped(std::string_view text, const Keep& keep, const Escape& escape) {
+  std::string out;
+  out.reserve(text.size());
+  for (size_t at = 0; at < text.size();) {
+    const auto [code, bytes] = character_at(text, at);
+    if (code == kNoCharacter) {
+      out += formatted("\\x%02x", static_cast<unsigned char>(text[at]));
+    } else if (keep(code)) {
+      out += text.substr(at, bytes);
+    } else {
+      out += escape(code);
+    }
+    at += bytes;
+  }
+  return out;
 }
 
 }  // namespace
 
-// The Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing over U+10FFFF.
 Character character_at(std::string_view text, size_t at) {
-  const auto byte = [text](size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : static_cast<unsigned char>(0);
-  };
-  const unsigned lead = byte(at);
-  if (lead < 0x80) return {lead, 1};
-  const size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4) return {kNoCharacter, 1};
-  char32_t code = lead & (0x7F >> bytes);
-  for (size_t i = 1; i < bytes; ++i) {
-    if ((byte(at + i) & 0xC0) != 0x80) return {kNoCharacter, 1};
-    code = code << 6 | (byte(at + i) & 0x3F);
-  }
-  const bool is_overlong = code < (bytes == 4 ? 0x10000u : bytes == 3 ? 0x800u : 0x80u);
-  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (is_overlong || is_surrogate || code > 0x10FFFF) return {kNoCharacter, 1};
-  return {code, bytes};
+  utf8proc_int32_t code = 0;
+  const utf8proc_ssize_t bytes = utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(text.data() + at),
+                                                  static_cast<utf8proc_ssize_t>(text.size() - at), &code);
+  if (bytes <= 0) return {kNoCharacter, 1};
+  return {static_cast<char32_t>(code), static_cast<size_t>(bytes)};
 }
 
 void append_utf8(char32_t code, std::string& out) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0 | code >> 6);
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xE0 | code >> 12);
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else {
-    out += static_cast<char>(0xF0 | code >> 18);
-    out += static_cast<char>(0x80 | (code >> 12 & 0x3F));
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  }
+  utf8proc_uint8_t bytes[4];
+  const utf8proc_ssize_t count = utf8proc_encode_char(static_cast<utf8proc_int32_t>(code), bytes);
+  out.append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(count));
 }
 
 size_t count_characters(std::string_view text) {
@@ -77,40 +71,45 @@ size_t count_characters(std::string_view text) {
   return count;
 }
 
-// Unicode 15, PropList.txt.
 bool is_white_space(char32_t code) {
-  static constexpr CodeRange kRanges[] = {{0x9, 0xD},       {0x20, 0x20},     {0x85, 0x85},     {0xA0, 0xA0},
-                                          {0x1680, 0x1680}, {0x2000, 0x200A}, {0x2028, 0x2029}, {0x202F, 0x202F},
-                                          {0x205F, 0x205F}, {0x3000, 0x3000}};
-  return is_in(kRanges, code);
+  if (code == kNoCharacter) return false;
+  const utf8proc_property_t* const property = utf8proc_get_property(static_cast<utf8proc_int32_t>(code));
+  const bool is_separator = property->category == UTF8PROC_CATEGORY_ZS || property->category == UTF8PROC_CATEGORY_ZL ||
+                            property->category == UTF8PROC_CATEGORY_ZP;
+  return is_separator || (code >= 0x9 && code <= 0xD) || code == 0x85;
 }
 
-// Unicode 15, DerivedGeneralCategory.txt.
-bool is_control_or_format(char32_t code) {
-  static constexpr CodeRange kRanges[] = {
-      {0x0, 0x1F},        {0x7F, 0x9F},       {0xAD, 0xAD},       {0x600, 0x605},     {0x61C, 0x61C},
-      {0x6DD, 0x6DD},     {0x70F, 0x70F},     {0x890, 0x891},     {0x8E2, 0x8E2},     {0x180E, 0x180E},
-      {0x200B, 0x200F},   {0x2028, 0x202E},   {0x2060, 0x2064},   {0x2066, 0x206F},   {0xFEFF, 0xFEFF},
-      {0xFFF9, 0xFFFB},   {0x110BD, 0x110BD}, {0x110CD, 0x110CD}, {0x13430, 0x1343F}, {0x1BCA0, 0x1BCA3},
-      {0x1D173, 0x1D17A}, {0xE0001, 0xE0001}, {0xE0020, 0xE007F}};
-  return is_in(kRanges, code);
+bool is_shown(char32_t code) {
+  const utf8proc_property_t* const property = utf8proc_get_property(static_cast<utf8proc_int32_t>(code));
+  switch (property->category) {
+    case UTF8PROC_CATEGORY_CC:
+    case UTF8PROC_CATEGORY_CF:
+    case UTF8PROC_CATEGORY_CN:
+    case UTF8PROC_CATEGORY_CS:
+    case UTF8PROC_CATEGORY_ZL:
+    case UTF8PROC_CATEGORY_ZP:
+      return false;
+    default:
+      return !property->ignorable;
+  }
+}
+
+std::string printable(std::string_view text) { return escaped(text, is_shown, escape); }
+
+std::string printable_lines(std::string_view text) {
+  return escaped(
+      text, [](char32_t code) { return code == U'\n' || is_shown(code); }, escape);
 }
 
 std::string visible_text(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (size_t at = 0; at < text.size();) {
-    const auto [code, bytes] = character_at(text, at);
-    if (code == kNoCharacter) {
-      out += formatted("\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(text[at])));
-    } else if (code != U' ' && (is_white_space(code) || is_control_or_format(code))) {
-      out += escape(code);
-    } else {
-      out += text.substr(at, bytes);
-    }
-    at += bytes;
-  }
-  return out;
+  return escaped(
+      text, [](char32_t code) { return code == U' ' || (is_shown(code) && !is_white_space(code)); }, escape);
+}
+
+std::string printable_json(std::string_view json) {
+  // Below DEL there are only the white space between values and what JSON's own escapes have left.
+  return escaped(
+      json, [](char32_t code) { return code < 0x7f || is_shown(code); }, escape_json);
 }
 
 std::string character_name(char32_t code) {
@@ -119,7 +118,7 @@ std::string character_name(char32_t code) {
   if (code == U' ') return "a blank";
   if (code == kNoCharacter) return "a byte that is no UTF-8";
   const std::string number = formatted("U+%04X", static_cast<unsigned>(code));
-  if (is_white_space(code) || is_control_or_format(code)) return number;
+  if (is_white_space(code) || !is_shown(code)) return number;
   if (code < 0x80) return std::string("'") + static_cast<char>(code) + "'";
   std::string character;
   append_utf8(code, character);

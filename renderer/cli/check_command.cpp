@@ -8,6 +8,7 @@
 
 #include "renderer/check/check.h"
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/cli/interrupt.h"
 #include "renderer/trace/isa.h"
 
@@ -35,8 +36,7 @@ std::vector<Row> chosen_rows(const std::vector<std::string>& only) {
       if (letters.empty() || letters.back() != row.id[0])
         letters += (letters.empty() ? "" : ", ") + std::string(1, row.id[0]);
     }
-    std::fprintf(stderr, "tilelight: no row is called '%s'; the groups are %s, their rows S1, S2, ...\n", name.c_str(),
-                 letters.c_str());
+    complain(kBadInput, "no row is called '" + name + "'; the groups are " + letters + ", their rows S1, S2, ...");
     return {};
   }
   std::erase_if(rows, [&](const Row& row) {
@@ -76,10 +76,7 @@ void print_verdict(const Verdict& v) {
 }  // namespace
 
 ExitCode run_check(const CheckArguments& arguments) {
-  if (auto isa = select_isa(arguments.isa); !isa) {
-    std::fprintf(stderr, "tilelight: %s\n", isa.error().detail.c_str());
-    return kBadInput;
-  }
+  if (auto isa = select_isa(arguments.isa); !isa) return complain(kBadInput, isa.error().detail);
   const std::vector<Row> rows = chosen_rows(arguments.only);
   if (rows.empty()) return kBadInput;
 

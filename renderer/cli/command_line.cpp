@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "renderer/cli/commands.h"
@@ -47,7 +49,7 @@ void add_scene_option(CLI::App& app, std::string& path) {
 CLI::Option* add_output_options(CLI::App& app, RenderArguments& arguments) {
   CLI::Option* output = app.add_option(
       "-o,--output", arguments.output,
-      "The image: .png, .jpg, .exr (linear, half) or, of the lines that --algorithm roberts draws, .svg");
+      "The image: .png, .jpg, .exr (linear, 32-bit floats) or, of the lines that --algorithm roberts draws, .svg");
   add_view_options(app, arguments.view);
   app.add_option("--threads", arguments.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
   app.add_option("--tile", arguments.tile_px,
@@ -276,13 +278,13 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const auto words = app.remaining(); error.get_exit_code() != 0 && !words.empty() && words[0][0] != '-') {
-      std::fprintf(
-          stderr,
-          "tilelight: no command is called '%s'; there are render, plan, report, compare, chess, check and schema\n",
-          words[0].c_str());
-      return kBadInput;
+      return complain(kBadInput, "no command is called '" + words[0] +
+                                     "'; there are render, plan, report, compare, chess, check and schema");
     }
-    return app.exit(error) == 0 ? kOk : kBadInput;  // prints the help, the version or what is wrong
+    std::ostringstream wrong;  // or it is the help or the version, for standard output
+    const int code = app.exit(error, std::cout, wrong);
+    std::fputs(printable_lines(wrong.str()).c_str(), stderr);
+    return code == 0 ? kOk : kBadInput;
   }
   return run();
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "renderer/cli/commands.h"
+#include "renderer/cli/complain.h"
 #include "renderer/renderer.h"
 #include "renderer/trace/isa.h"
 
@@ -94,10 +95,7 @@ void print_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
 }  // namespace
 
 ExitCode run_plan(const SceneText& source, const PlanArguments& arguments) {
-  if (auto isa = select_isa(arguments.isa); !isa) {
-    std::fprintf(stderr, "tilelight: %s\n", isa.error().detail.c_str());
-    return kBadInput;
-  }
+  if (auto isa = select_isa(arguments.isa); !isa) return complain(kBadInput, isa.error().detail);
   const auto parsed = parse_with_options(source, arguments.view);
   if (const ExitCode* code = std::get_if<ExitCode>(&parsed)) return *code;
   const auto& document = std::get<ParsedScene>(parsed);
@@ -111,12 +109,13 @@ ExitCode run_plan(const SceneText& source, const PlanArguments& arguments) {
   if (arguments.json) {
     out << R"({"predicted":)" << cost_json(cost) << R"(,"warnings":)"
         << warnings_json(document.warnings, plan.plan.warnings) << R"(,"plan":)" << plan_json(plan.plan) << "}\n";
-  } else {
-    print_scene(out, plan.plan);
-    print_view(out, plan, !document.view.camera, cost, pool.thread_count());
-    print_left_out(out, plan.plan.left_out);
+    std::fputs(printable_json(out.str()).c_str(), stdout);
+    return kOk;
   }
-  std::fputs(out.str().c_str(), stdout);
+  print_scene(out, plan.plan);
+  print_view(out, plan, !document.view.camera, cost, pool.thread_count());
+  print_left_out(out, plan.plan.left_out);
+  std::fputs(printable_lines(out.str()).c_str(), stdout);
   return kOk;
 }
 

@@ -29,6 +29,12 @@ ExitCode check_arguments(const RenderArguments& arguments) {
 
 // What can be refused only once the scene has been read.
 ExitCode check_output(const RenderArguments& arguments, const View& view) {
+  for (const std::string& path : {arguments.output, arguments.error_map}) {
+    const auto format = image_format_from_extension(path);
+    if (!format) continue;  // there is none to write
+    if (auto fits = check_image_size(*format, view.image.width, view.image.height); !fits)
+      return complain(kBadInput, path + ": " + fits.error().detail);
+  }
   if (image_format_from_extension(arguments.output) != ImageFormat::svg || draws_lines(view)) return kOk;
   return complain(kBadInput, arguments.output + ": an SVG holds lines, which --algorithm roberts alone draws");
 }
@@ -50,34 +56,50 @@ RenderProgress wait_for_end(Render& render, ProgressLine& line) {
   return render.progress();
 }
 
-Result<std::string> encode_result(const Render& render, double exposure_stops, ImageFormat format) {
-  if (format == ImageFormat::svg) return render.lines_svg();
-  return encode_image(*render.image(), exposure_stops, format);
+// The picture in the format that its path names, and a warning where that changes any of its values.
+Result<std::string> encode_result(const Image& image, double exposure_stops, const std::string& path) {
+  const ImageFormat format = *image_format_from_extension(path);
+  auto bytes = encode_image(image, exposure_stops, format);
+  if (const int64_t count = count_clamped(image, exposure_stops, format); bytes && count > 0)
+    print_warnings(path, {{"", "clamped", clamped_warning(count, format)}});
+  return bytes;
 }
 
+Result<std::string> encode_picture(const Render& render, const ViewPlan& plan, const std::string& path) {
+  if (image_format_from_extension(path) == ImageFormat::svg) return render.lines_svg();
+  return encode_result(*render.image(), plan.view.image.exposure, path);
+}
+
+Result<std::string> encode_error_map(const Render& render, const ViewPlan& plan, const std::string& path) {
+  const auto& [width, height, exposure] = plan.view.image;
+  const auto bounds = render.error_bounds();
+  const bool is_numbers = image_format_from_extension(path) == ImageFormat::exr;
+  return encode_result(is_numbers ? error_image(width, height, *bounds) : heat_map(width, height, *bounds), 0.0, path);
+}
+
+std::string report_of(const Render& render, const ParsedScene& parsed, const CompiledScene& compiled,
+                      const ViewPlan& plan) {
+  const Image& image = *render.image();
+  const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id, image_hash(image),
+                                find_rounding(parsed.scene, compiled, plan),
+                                count_clamped(image, plan.view.image.exposure, ImageFormat::exr), parsed.warnings};
+  return report_json(render.report(), plan.plan, identity) + "\n";
+}
+
+// What cannot be encoded leaves no file of what can.
 ExitCode write_results(const Render& render, const ParsedScene& parsed, const CompiledScene& compiled,
                        const ViewPlan& plan, const RenderArguments& arguments) {
-  const auto format = image_format_from_extension(arguments.output);
-  const auto bytes = encode_result(render, plan.view.image.exposure, *format);
-  if (!bytes) return complain(kFailed, bytes.error().detail);
+  std::vector<std::pair<std::string, Result<std::string>>> files;
+  files.emplace_back(arguments.output, encode_picture(render, plan, arguments.output));
+  if (!arguments.error_map.empty())
+    files.emplace_back(arguments.error_map, encode_error_map(render, plan, arguments.error_map));
+  if (!arguments.report.empty()) files.emplace_back(arguments.report, report_of(render, parsed, compiled, plan));
   if (is_interrupted()) return kInterrupted;
-  if (auto written = write_output(arguments.output, *bytes); !written) return complain(kFailed, written.error().detail);
-  if (!arguments.error_map.empty()) {
-    const auto map_format = image_format_from_extension(arguments.error_map);
-    const auto& [width, height, exposure] = plan.view.image;
-    const auto bounds = render.error_bounds();
-    const auto map = encode_image(
-        *map_format == ImageFormat::exr ? error_image(width, height, *bounds) : heat_map(width, height, *bounds), 0.0,
-        *map_format);
-    if (!map) return complain(kFailed, map.error().detail);
-    if (auto written = write_output(arguments.error_map, *map); !written)
-      return complain(kFailed, written.error().detail);
-  }
-  if (arguments.report.empty()) return kOk;
-  const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id, image_hash(*render.image()),
-                                find_rounding(parsed.scene, compiled, plan), parsed.warnings};
-  const std::string report = report_json(render.report(), plan.plan, identity) + "\n";
-  if (auto written = write_output(arguments.report, report); !written) return complain(kFailed, written.error().detail);
+  print_warnings(arguments.output, report_warnings(render.report()));
+  for (const auto& [path, bytes] : files)
+    if (!bytes) return complain(kFailed, path + ": " + bytes.error().detail);
+  for (const auto& [path, bytes] : files)
+    if (auto written = write_output(path, *bytes); !written) return complain(kFailed, written.error().detail);
   return kOk;
 }
 

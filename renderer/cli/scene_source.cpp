@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "renderer/base/characters.h"
+#include "renderer/cli/complain.h"
 #include "renderer/cli/files.h"
 
 namespace tilelight::cli {
@@ -39,28 +39,25 @@ std::string view_json(const ViewOptions& options) {
 std::string errors_text(const std::string& name, const std::vector<SceneError>& errors) {
   std::string text;
   for (const SceneError& error : errors) {
-    text += name;
-    if (error.line > 0) text += ":" + std::to_string(error.line) + ":" + std::to_string(error.column);
-    text += ": " + (error.pointer.empty() ? "" : visible_text(error.pointer) + ": ") + error.detail;
-    if (!error.hint.empty()) text += " (" + error.hint + ")";
-    text += "\n";
+    std::string line = name;
+    if (error.line > 0) line += ":" + std::to_string(error.line) + ":" + std::to_string(error.column);
+    line += ": " + (error.pointer.empty() ? "" : error.pointer + ": ") + error.detail;
+    if (!error.hint.empty()) line += " (" + error.hint + ")";
+    text += printable(line) + "\n";
   }
   return text;
 }
 
 void print_warnings(const std::string& name, const std::vector<SceneWarning>& warnings) {
   for (const SceneWarning& warning : warnings) {
-    const std::string where = warning.pointer.empty() ? "" : visible_text(warning.pointer) + ": ";
-    std::fprintf(stderr, "%s: warning: %s%s\n", name.c_str(), where.c_str(), warning.detail.c_str());
+    const std::string where = warning.pointer.empty() ? "" : warning.pointer + ": ";
+    std::fprintf(stderr, "%s\n", printable(name + ": warning: " + where + warning.detail).c_str());
   }
 }
 
 std::variant<SceneText, ExitCode> read_scene(const std::string& path) {
   auto text = read_input(path, Limits{}.bytes);
-  if (!text) {
-    std::fprintf(stderr, "tilelight: %s\n", text.error().detail.c_str());
-    return kFailed;
-  }
+  if (!text) return complain(kFailed, text.error().detail);
   return SceneText{path == "-" ? "<stdin>" : path, std::move(*text)};
 }
 

@@ -8,10 +8,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <mutex>
+#include <new>
 
 #include "renderer/base/elementary.h"
 #include "renderer/base/standard_floats.h"
+#include "renderer/film/jpeg.h"
 #include "renderer/film/png.h"
 #include "renderer/film/tone.h"
 
@@ -21,13 +24,20 @@ namespace {
 struct FormatRow {
   ImageFormat format;
   const char* plugin;  // OpenImageIO's name; svg: none
-  std::string_view media_type;
+  std::string_view name, media_type;
   std::array<std::string_view, 2> extensions;
+  int max_side;
 };
-constexpr std::array<FormatRow, 4> kFormats = {{{ImageFormat::png, "png", "image/png", {"png", ""}},
-                                                {ImageFormat::jpeg, "jpeg", "image/jpeg", {"jpg", "jpeg"}},
-                                                {ImageFormat::exr, "openexr", "image/x-exr", {"exr", ""}},
-                                                {ImageFormat::svg, nullptr, "image/svg+xml", {"svg", ""}}}};
+// A PNG may be longer, but libpng, by which nearly everybody reads it, refuses that unless it is told otherwise. What
+// OpenImageIO writes as EXR ends at 2^20.
+constexpr int kMaxPngSide = 1'000'000, kMaxExrSide = 1 << 20, kNoLimit = std::numeric_limits<int>::max();
+constexpr std::array<FormatRow, 4> kFormats = {
+    {{ImageFormat::png, "png", "PNG", "image/png", {"png", ""}, kMaxPngSide},
+     {ImageFormat::jpeg, "jpeg", "JPEG", "image/jpeg", {"jpg", "jpeg"}, kMaxJpegSide},
+     {ImageFormat::exr, "openexr", "EXR", "image/x-exr", {"exr", ""}, kMaxExrSide},
+     {ImageFormat::svg, nullptr, "SVG", "image/svg+xml", {"svg", ""}, kNoLimit}}};
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
 const FormatRow& row_of(ImageFormat format) { return kFormats[static_cast<size_t>(format)]; }
 
@@ -50,26 +60,38 @@ void use_calling_thread_only() {
   });
 }
 
-OIIO::ImageSpec spec_for(const Image& image, ImageFormat format) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, format == ImageFormat::exr ? OIIO::TypeHalf : OIIO::TypeUInt8);
-  if (format == ImageFormat::jpeg) spec.attribute("compression", "jpeg:92");
-  if (format == ImageFormat::exr) spec.attribute("compression", "zip");
+std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+OIIO::ImageSpec exr_spec(const Image& image) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeFloat);
+  spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the library writes the time of day, and one image has many bytes
-  spec.attribute("oiio:ColorSpace", format == ImageFormat::exr ? "Linear" : "sRGB");
+  spec.attribute("oiio:ColorSpace", "Linear");
   return spec;
 }
 
+// Times 2^exposure, brought to what a float holds.
 std::vector<float> exposed(const Image& image, double exposure_stops) {
   const double scale = elementary::exp2(exposure_stops);
   std::vector<float> values(image.rgb.size());
-  std::transform(image.rgb.begin(), image.rgb.end(), values.begin(),
-                 [scale](float v) { return static_cast<float>(v * scale); });
+  std::transform(image.rgb.begin(), image.rgb.end(), values.begin(), [scale](float v) {
+    const double value = v * scale;
+    return value == value ? static_cast<float>(std::clamp(value, -kLargestFloat, kLargestFloat)) : 0.0f;
+  });
   return values;
 }
 
-bool write_pixels(OIIO::ImageOutput& output, const Image& image, double exposure_stops, ImageFormat format) {
-  if (format == ImageFormat::exr) return output.write_image(OIIO::TypeFloat, exposed(image, exposure_stops).data());
-  return output.write_image(OIIO::TypeUInt8, to_srgb8(image, exposure_stops).data());
+Result<std::string> write_exr(const Image& image, double exposure_stops) {
+  use_calling_thread_only();
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(row_of(ImageFormat::exr).plugin);
+  if (!output || !output->set_ioproxy(&memory))
+    return fail("image_format_unavailable", "this build cannot write EXR images");
+  if (!output->open("memory.exr", exr_spec(image)) ||
+      !output->write_image(OIIO::TypeFloat, exposed(image, exposure_stops).data()) || !output->close())
+    return fail("encode_failed", "writing an EXR: " + output->geterror());
+  return std::string(bytes.begin(), bytes.end());
 }
 
 // An image file opened in memory. The reader must outlive the input, so they travel together.
@@ -95,8 +117,8 @@ Result<OpenInput> open_input(std::string_view bytes, ImageFormat format, int64_t
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     return fail("bad_image", "the image has no pixels");
   if (static_cast<int64_t>(spec.width) * spec.height > max_pixels)
-    return fail("image_too_large", "the image has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                                       " pixels; at most " + std::to_string(max_pixels) + " are allowed");
+    return fail("image_too_large", "the image has " + size_text(spec.width, spec.height) + " pixels; at most " +
+                                       std::to_string(max_pixels) + " are allowed");
   return open;
 }
 
@@ -134,21 +156,51 @@ std::optional<ImageFormat> image_format_from_media_type(std::string_view media_t
 
 std::string_view media_type(ImageFormat format) { return row_of(format).media_type; }
 
+int max_image_side(ImageFormat format) { return row_of(format).max_side; }
+
+Result<void> check_image_size(ImageFormat format, int width, int height) {
+  const FormatRow& row = row_of(format);
+  if (width <= row.max_side && height <= row.max_side) return {};
+  std::string others;
+  for (const FormatRow& other : kFormats) {
+    if (other.format != ImageFormat::svg && std::max(width, height) <= other.max_side)
+      others += (others.empty() ? "; " : " and ") + std::string(other.name);
+  }
+  return fail("format_limit", "the picture has " + size_text(width, height) + " pixels, and a side of a " +
+                                  std::string(row.name) + " has at most " + std::to_string(row.max_side) + others +
+                                  (others.empty() ? "" : " can hold it"));
+}
+
 Result<std::string> encode_image(const Image& image, double exposure_stops, ImageFormat format) {
   if (format == ImageFormat::svg) return no_pixels();
-  if (format == ImageFormat::png) return write_png(image.width, image.height, to_srgb8(image, exposure_stops));
+  if (auto fits = check_image_size(format, image.width, image.height); !fits) return ::tl::unexpected(fits.error());
   const StandardFloats floats;
-  use_calling_thread_only();
-  const FormatRow& row = row_of(format);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(row.plugin);
-  if (!output || !output->set_ioproxy(&memory))
-    return fail("image_format_unavailable", std::string("this build cannot write ") + row.plugin + " images");
-  if (!output->open(std::string("memory.") + std::string(row.extensions[0]), spec_for(image, format)) ||
-      !write_pixels(*output, image, exposure_stops, format) || !output->close())
-    return fail("encode_failed", std::string("writing ") + row.plugin + ": " + output->geterror());
-  return std::string(bytes.begin(), bytes.end());
+  try {
+    if (format == ImageFormat::exr) return write_exr(image, exposure_stops);
+    const std::vector<uint8_t> rgb = to_srgb8(image, exposure_stops);
+    if (format == ImageFormat::jpeg) return write_jpeg(image.width, image.height, rgb);
+    return write_png(image.width, image.height, rgb);
+  } catch (const std::bad_alloc&) {
+    return fail("out_of_memory", "memory is short: the picture of " + size_text(image.width, image.height) +
+                                     " pixels cannot be written as " + std::string(row_of(format).name) + " now");
+  } catch (const std::exception& error) {
+    return fail("encode_failed", "writing " + std::string(row_of(format).name) + ": " + error.what());
+  }
+}
+
+int64_t count_clamped(const Image& image, double exposure_stops, ImageFormat format) {
+  const double scale = format == ImageFormat::exr ? elementary::exp2(exposure_stops) : 1.0;
+  return std::count_if(image.rgb.begin(), image.rgb.end(),
+                       [scale](float v) { return !(std::abs(v * scale) <= kLargestFloat); });
+}
+
+std::string clamped_warning(int64_t count, ImageFormat format) {
+  const std::string values = std::to_string(count) + (count == 1 ? " value" : " values");
+  if (format == ImageFormat::exr)
+    return values +
+           " of the picture cannot be held by a 32-bit float after exposure and became the nearest that can, " +
+           "3.4e38 at most; a lower exposure keeps them";
+  return values + " of the picture are infinite and are shown as white";
 }
 
 Result<Rgb8Image> decode_image(std::string_view bytes, ImageFormat format, int64_t max_pixels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, JPEG and OpenEXR in memory (JPEG and OpenEXR, and what is read, by OpenImageIO), and the names of the formats of
-// pictures. A target of its own (tl_image_io): loading the library costs 0.3 s. Any thread.
+// PNG, JPEG and OpenEXR in memory (OpenEXR, and what is read, by OpenImageIO), and the names and limits of the formats
+// of pictures. A target of its own (tl_image_io): loading the library costs 0.3 s. Any thread. Whatever a library
+// makes of a picture is a result or an error; none ends the process.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +23,22 @@ std::optional<ImageFormat> image_format_from_extension(std::string_view path);  
 std::optional<ImageFormat> image_format_from_media_type(std::string_view media_type);  // "image/png" -> png
 std::string_view media_type(ImageFormat format);
 
-// Encodes a linear image. PNG and JPEG: exposure, clamp, sRGB, 8 bit. EXR: linear half floats times 2^exposure,
-// unclamped. The same image gives the same bytes.
+// The longest side that a picture of the format may have, in pixels.
+int max_image_side(ImageFormat format);
+// Error format_limit, which names the limit, where a picture of this size does not fit.
+Result<void> check_image_size(ImageFormat format, int width, int height);
+
+// Encodes a linear image. PNG and JPEG: exposure, clamp to [0, 1], sRGB, 8 bit. EXR: linear 32-bit floats times
+// 2^exposure, clamped to what such a float can hold. NaN becomes 0. The same image gives the same bytes.
+// Errors: no_pixels, format_limit, out_of_memory, encode_failed, image_format_unavailable.
 Result<std::string> encode_image(const Image& image, double exposure_stops, ImageFormat format);
+
+// How many of the image's values (three a pixel) the format cannot hold, so that encode_image changes them: in an EXR
+// what is over the largest float after exposure, in PNG and JPEG, which are clamped to what a display shows anyway,
+// what is infinite before it; in all NaN.
+int64_t count_clamped(const Image& image, double exposure_stops, ImageFormat format);
+// The same for people. REQUIRES: count > 0.
+std::string clamped_warning(int64_t count, ImageFormat format);
 
 // Reads 8-bit sRGB back (for tests and tools). Grey is spread over RGB, alpha is dropped, an EXR's linear values are
 // displayed at exposure 0. Only the declared format's decoder sees the bytes. Errors: bad_image, image_too_large;

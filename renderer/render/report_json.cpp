@@ -30,6 +30,22 @@ Json efficiency_json(const ReportPoint& p) {
 
 }  // namespace
 
+std::vector<SceneWarning> report_warnings(const RenderReport& report) {
+  const int64_t count = report.points.empty() ? 0 : report.points.back().nonfinite;
+  if (count == 0) return {};
+  return {{"", "nonfinite",
+           std::to_string(count) + (count == 1 ? " sample was" : " samples were") +
+               " not finite, or over 1e34, and count as black; less light, or less of it reflected, keeps them"}};
+}
+
+std::vector<SceneWarning> result_warnings(std::vector<SceneWarning> read, const RenderReport& report,
+                                          std::optional<int64_t> clamped) {
+  for (SceneWarning& warning : report_warnings(report)) read.push_back(std::move(warning));
+  if (clamped.value_or(0) > 0)
+    read.push_back({"/image/exposure", "clamped", clamped_warning(*clamped, ImageFormat::exr)});
+  return read;
+}
+
 std::string image_hash(const Image& image) {
   return sha256_hex({reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size() * sizeof(float)});
 }
@@ -65,7 +81,8 @@ std::string report_json(const RenderReport& report, const Plan& plan, const Repo
       {"components", has_points ? components_json(report.points.back(), identity.rounding) : Json(nullptr)},
       {"efficiency", has_points ? efficiency_json(report.points.back()) : Json(nullptr)},
       {"stiffness", Json::parse(plan_json(plan)).at("stiffness")},
-      {"warnings", Json::parse(warnings_json(identity.warnings, plan.warnings))},
+      {"warnings", Json::parse(warnings_json(result_warnings(identity.warnings, report, identity.clamped), plan.warnings))},
+      {"clamped", identity.clamped ? Json(*identity.clamped) : Json(nullptr)},
       {"image_hash", text_or_null(identity.image_hash)},
       {"version", text_or_null(identity.version)},
       {"scene_sha256", text_or_null(identity.scene_id)},

@@ -68,6 +68,16 @@ struct TilePool::State {
 
   ClassQueue& queue(Priority priority) { return classes[static_cast<size_t>(priority)]; }
 
+  // Ends all threads.
+  void stop() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    ready.notify_all();
+    threads.clear();  // joins
+  }
+
   void work() {
     const StandardFloats floats;  // not those of the thread that made the pool
     for (;;) {
@@ -146,16 +156,16 @@ struct TilePool::State {
 
 TilePool::TilePool(int threads) : state_(std::make_unique<State>()) {
   if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  for (int i = 0; i < threads; ++i) state_->threads.emplace_back([state = state_.get()] { state->work(); });
+  try {
+    for (int i = 0; i < threads; ++i) state_->threads.emplace_back([state = state_.get()] { state->work(); });
+  } catch (...) {  // the system has no more threads: those that there are wait for work, and would for ever
+    state_->stop();
+    throw;
+  }
 }
 
 TilePool::~TilePool() {
-  {
-    const std::lock_guard lock(state_->mutex);
-    state_->stopping = true;
-  }
-  state_->ready.notify_all();
-  state_->threads.clear();  // joins
+  state_->stop();
   // While the pool still answers: the destructor of a source or of a task may call it.
   const auto dropped = std::exchange(state_->classes, {});
 }

@@ -118,7 +118,23 @@ Result<EncodedPtr> encode_layer(Services& services, Layer layer, const Image& im
   return services.pool.submit(Priority::interactive, encode).get();
 }
 
-std::string render_info(double spp, std::string_view stop, const RenderReport& report) {
+::tl::unexpected<Problem> not_acceptable(const Request& request, std::string what_there_is, int width, int height) {
+  for (const ImageFormat format : image_formats(false)) {
+    const auto fits = check_image_size(format, width, height);
+    if (!fits && best_offer(request, {media_type(format)})) what_there_is += "; " + fits.error().detail;
+  }
+  return problem(406, "not_acceptable", std::move(what_there_is));
+}
+
+::tl::unexpected<Problem> not_encoded(Services& services, const Request& request, const Error& error) {
+  if (error.code == "expired") return problem(410, "expired", error.detail);
+  if (error.code == "format_limit") return problem(406, "not_acceptable", error.detail);
+  services.log.write(LogLevel::error, "encode_failed", {{"id", request.id}, {"cause", error.detail}});
+  if (error.code == "out_of_memory") return busy("out_of_memory", error.detail, 5);
+  return problem(500, "internal", "the image could not be encoded; the server's log has a line with this request_id");
+}
+
+std::string render_info(double spp, std::string_view stop, const RenderReport& report, int64_t clamped) {
   // Structured fields (RFC 8941) know decimals of three places and no exponents.
   const auto decimal = [](double value, int places) {
     char text[64];
@@ -127,6 +143,7 @@ std::string render_info(double spp, std::string_view stop, const RenderReport& r
   };
   std::string out = "spp=" + decimal(spp, spp == std::floor(spp) ? 0 : 3);
   if (!stop.empty()) out += ", stop=\"" + std::string(stop) + "\"";
+  if (clamped > 0) out += ", clamped=" + std::to_string(clamped);
   if (report.points.empty()) return out;
   const ReportPoint& last = report.points.back();
   if (last.error.is_known) out += ", rmse=" + decimal(last.error.rmse, 6);
@@ -146,7 +163,7 @@ Response image_response(const RenderWork& work, const EncodedPtr& image, ImageFo
   response.with("ETag", image->etag)
       .with("Vary", "Accept")
       .with("Server-Timing", server_timing(status))
-      .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report));
+      .with("Render-Info", render_info(status.progress.spp, status.report.stop, status.report, image->clamped));
   return response;
 }
 

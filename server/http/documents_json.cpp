@@ -66,7 +66,8 @@ Json brief_json(const JobRecord& record, std::string_view prefix) {
 
 std::string report_document(const JobRecord& record, const std::string& image_hash,
                             const std::optional<double>& rounding) {
-  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id, image_hash, rounding, record.warnings};
+  const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id,       image_hash,
+                                rounding,          record.status.clamped, record.warnings};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
@@ -74,7 +75,8 @@ std::string job_json(const JobRecord& record, std::string_view prefix) {
   const WorkStatus& status = record.status;
   Json out = brief_json(record, prefix);
   out["timings"] = timings_json(status.timings);
-  out["warnings"] = warnings_of(record.warnings, status.plan.value_or(Plan{}));
+  out["warnings"] = Json::parse(warnings_json(result_warnings(record.warnings, status.report, status.clamped),
+                                              status.plan.value_or(Plan{}).warnings));
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
   out["report"] = has_report ? Json::parse(report_document(record, "")) : Json(nullptr);
@@ -162,6 +164,9 @@ std::string session_document(std::string_view id, std::string_view scene_id, con
 
 std::string limits_document(const Config& config) {
   Json out = Json::parse(limits_json(config.limits));
+  for (const ImageFormat format : image_formats(true))
+    out["formats"][std::string(image_format_name(format))] = {
+        {"image_side", std::min(config.limits.image_side, max_image_side(format))}};
   out["server"] = {{"max_queue", config.max_queue},     {"max_sessions", config.max_sessions},
                    {"max_results", config.max_results}, {"films_mb", config.films_mb},
                    {"film_keep_s", config.film_keep_s}, {"max_wait_s", config.max_wait_s},

@@ -99,7 +99,11 @@ void Front::run_loop() {
         eventfd_read(wake_, &ignored);
         take_finished();
       } else {
-        handle_event(id, events[static_cast<size_t>(i)].events);
+        try {
+          handle_event(id, events[static_cast<size_t>(i)].events);
+        } catch (const std::bad_alloc&) {  // its request or answer has no room; the others go on
+          if (connections_.contains(id)) close_connection(id);
+        }
       }
       drop_largest_bodies();
     }

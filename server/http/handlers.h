@@ -93,6 +93,12 @@ enum class Layer { color, error };
 // On the pool. error_bounds: by pixel of the image.
 Result<EncodedPtr> encode_layer(Services& services, Layer layer, const Image& image,
                                 const std::vector<float>& error_bounds, double exposure_stops, ImageFormat format);
-std::string render_info(double spp, std::string_view stop, const RenderReport& report);
+// clamped: values of the picture that its format cannot hold; told where there are any.
+std::string render_info(double spp, std::string_view stop, const RenderReport& report, int64_t clamped);
+
+// 406: what there is, and, for a format that the client accepts but that cannot hold a picture of this size, its limit.
+::tl::unexpected<Problem> not_acceptable(const Request& request, std::string what_there_is, int width, int height);
+// What becomes of a picture that was rendered and cannot be encoded.
+::tl::unexpected<Problem> not_encoded(Services& services, const Request& request, const Error& error);
 
 }  // namespace tilelight::server

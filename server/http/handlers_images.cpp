@@ -8,17 +8,21 @@
 namespace tilelight::server {
 namespace {
 
-// The format in which to serve an image, of those that there are of it; its own where the client has no favourite.
-::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, std::vector<ImageFormat> formats,
+// The format in which to serve an image of a view, of those that there are of it; its own where the client has no
+// favourite. The error by pixel has no lines.
+::tl::expected<ImageFormat, Problem> image_format_for(const Request& request, const View& view, Layer layer,
                                                       ImageFormat own) {
+  const auto& [width, height, exposure] = view.image;
+  std::vector<ImageFormat> formats = image_formats(layer == Layer::color && draws_lines(view), width, height);
   std::stable_partition(formats.begin(), formats.end(), [own](ImageFormat format) { return format == own; });
   std::vector<std::string_view> offers;
   for (const ImageFormat format : formats) offers.push_back(media_type(format));
   const auto type = best_offer(request, offers);
   if (!type) {
-    return problem(406, "not_acceptable",
-                   "an image can be had as image/png, image/jpeg or image/x-exr, one by the algorithm roberts (but not "
-                   "its error) also as image/svg+xml");
+    return not_acceptable(request,
+                          "an image can be had as image/png, image/jpeg or image/x-exr, one by the algorithm roberts "
+                          "(but not its error) also as image/svg+xml",
+                          width, height);
   }
   return *image_format_from_media_type(*type);
 }
@@ -38,10 +42,11 @@ Result<EncodedPtr> encode_so_far(Services& services, const RenderWork& work, Lay
   return encode_layer(services, layer, *image, *error_bounds, work.request().view.image.exposure, format);
 }
 
-Reply partial_image(Services& services, const RenderWork& work, Layer layer, ImageFormat format) {
+Reply partial_image(Services& services, const Request& request, const RenderWork& work, Layer layer,
+                    ImageFormat format) {
   const auto encoded = encode_so_far(services, work, layer, format);
   if (!encoded && encoded.error().code == "not_ready") return problem(409, "not_ready", encoded.error().detail);
-  if (!encoded) return problem(500, "internal", "the image could not be encoded");
+  if (!encoded) return not_encoded(services, request, encoded.error());
   return image_response(work, *encoded, format).with("Cache-Control", "no-store");
 }
 
@@ -63,11 +68,15 @@ std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageForma
 
 // What ?format= says; without it, what Accept likes best.
 ::tl::expected<ImageFormat, Problem> scene_image_format(const Request& request, const View& view) {
-  const std::vector<ImageFormat> formats = image_formats(view);
   const auto name = request.param("format");
-  if (!name) return image_format_for(request, formats, ImageFormat::png);
+  if (!name) return image_format_for(request, view, Layer::color, ImageFormat::png);
+  const std::vector<ImageFormat> formats = image_formats(draws_lines(view));
   const auto named = find_image_format(*name);
-  if (named && std::find(formats.begin(), formats.end(), *named) != formats.end()) return *named;
+  if (named && std::find(formats.begin(), formats.end(), *named) != formats.end()) {
+    const auto fits = check_image_size(*named, view.image.width, view.image.height);
+    if (fits) return *named;
+    return scene_problem({SceneErrors::Kind::invalid, {{"/format", fits.error().code, fits.error().detail, {}, ""}}});
+  }
   SceneError error{"/format", "unknown_name", "found '" + std::string(name->substr(0, 40)) + "'; allowed:", {}, ""};
   for (const ImageFormat format : formats) {
     error.allowed.emplace_back(image_format_name(format));
@@ -94,25 +103,20 @@ Reply get_render_image(Services& services, const Request& request) {
   if (!layer) return ::tl::unexpected(layer.error());
   const WorkPtr work = services.jobs.work(request.args[0]);
   if (!work) return problem(410, "expired", "the image is no longer kept; submit the render again");
-  const bool has_lines = *layer == Layer::color && draws_lines(work->request().view);
-  const auto format = image_format_for(request, image_formats(has_lines), record->format);
+  const auto format = image_format_for(request, work->request().view, *layer, record->format);
   if (!format) return ::tl::unexpected(format.error());
   const auto partial = request.param("partial");
   if (partial && *partial != "1") return problem(400, "bad_query", "partial must be 1, or be left out");
   const bool wants_partial = partial.has_value();
   const JobState state = record->status.state;
   if (state != JobState::done) {
-    if (wants_partial) return partial_image(services, *work, *layer, *format);
+    if (wants_partial) return partial_image(services, request, *work, *layer, *format);
     const std::string name(job_state_name(state));
     return problem(409, is_final(state) ? name : "not_ready",
                    "the render is " + name + (is_final(state) ? "" : "; ?partial=1 shows what there is"));
   }
   auto image = *layer == Layer::color ? work->encoded(*format, services.pool) : error_layer(services, *work, *format);
-  if (!image) {
-    const bool is_expired = image.error().code == "expired";
-    return problem(is_expired ? 410 : 500, is_expired ? "expired" : "internal",
-                   is_expired ? image.error().detail : "the image could not be encoded");
-  }
+  if (!image) return not_encoded(services, request, image.error());
   const char* kCacheControl = "private, max-age=31536000, immutable";
   if (has_current(request, (*image)->etag)) {
     return empty_response(304).with("ETag", (*image)->etag).with("Vary", "Accept").with("Cache-Control", kCacheControl);
@@ -151,9 +155,9 @@ Reply get_scene_image(Services& services, const Request& request) {
   }
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(*format, services.pool);
-  if (!image) return problem(500, "internal", "the image could not be encoded");
+  if (!image) return not_encoded(services, request, image.error());
   const WorkStatus status = work.status();
-  const std::string info = render_info(status.progress.spp, status.report.stop, status.report);
+  const std::string info = render_info(status.progress.spp, status.report.stop, status.report, (*image)->clamped);
   services.pictures.put(etag, {*image, info});
   return for_caches(shared_image(*image, *format), request, etag)
       .with("Server-Timing", server_timing(status))

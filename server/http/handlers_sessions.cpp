@@ -20,6 +20,18 @@ Response no_frame(const Services& services, const Request& request) {
   return response;
 }
 
+constexpr std::string_view kFrameFormats = "a frame can be had as image/png or image/jpeg";
+
+// What the client likes best of the formats that can hold a picture of this size.
+std::optional<ImageFormat> frame_format(const Request& request, int width, int height) {
+  std::vector<std::string_view> offers;
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg}) {
+    if (check_image_size(format, width, height)) offers.push_back(media_type(format));
+  }
+  const auto type = best_offer(request, offers);
+  return type ? image_format_from_media_type(*type) : std::nullopt;
+}
+
 }  // namespace
 
 Reply post_session(Services& services, const Request& request) {
@@ -60,9 +72,7 @@ Reply get_session_frame(Services& services, const Request& request) {
   if (!after || *after < 0) {
     return problem(400, "bad_query", "after must be the number of the last frame received, or 0");
   }
-  const auto type = best_offer(request, {"image/png", "image/jpeg"});
-  if (!type) return problem(406, "not_acceptable", "a frame can be had as image/png or image/jpeg");
-  const ImageFormat format = *image_format_from_media_type(*type);
+  if (!frame_format(request, 1, 1)) return problem(406, "not_acceptable", std::string(kFrameFormats));
   const auto layer = read_layer(request);
   if (!layer) return ::tl::unexpected(layer.error());
   auto slot = services.waits.take(request.client);
@@ -76,17 +86,20 @@ Reply get_session_frame(Services& services, const Request& request) {
                        {{"id", request.id}, {"session", session->id()}, {"cause", frame->error}});
     return problem(500, "render_failed", "the render of this view failed inside the server; another view may do");
   }
+  const auto format = frame_format(request, frame->image->width, frame->image->height);
+  if (!format) return not_acceptable(request, std::string(kFrameFormats), frame->image->width, frame->image->height);
   const auto start = Steady::now();
-  auto encoded = encode_layer(services, *layer, *frame->image, *frame->error_bounds, frame->exposure, format);
-  if (!encoded) return problem(500, "internal", "the frame could not be encoded");
+  auto encoded = encode_layer(services, *layer, *frame->image, *frame->error_bounds, frame->exposure, *format);
+  if (!encoded) return not_encoded(services, request, encoded.error());
   services.metrics.add("tilelight_session_frames_total", "");
   char timing[96];
   std::snprintf(timing, sizeof timing, "render;dur=%.2f, encode;dur=%.2f", frame->progress.elapsed_ms, ms_since(start));
-  return shared_image(*encoded, format)
+  return shared_image(*encoded, *format)
       .with("Frame-Seq", std::to_string(frame->seq))
       .with("View-Seq", std::to_string(frame->view_seq))
       .with("Frame-Final", frame->is_final ? "?1" : "?0")
-      .with("Render-Info", render_info(frame->progress.spp, frame->is_final ? frame->report.stop : "", frame->report))
+      .with("Render-Info", render_info(frame->progress.spp, frame->is_final ? frame->report.stop : "", frame->report,
+                                       (*encoded)->clamped))
       .with("Server-Timing", timing)
       .with("Cache-Control", "no-store");
 }

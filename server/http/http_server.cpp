@@ -16,7 +16,7 @@ Served refuse(Services& services, const Problem& problem, const std::string& cli
                         {.is_head = is_head, .is_http_1_0 = false, .close = true});
 }
 
-Served serve(Services& services, const std::vector<Route>& routes, Exchange& exchange) {
+Served serve(Services& services, const std::vector<Route>& routes, Exchange& exchange) try {
   Head& head = exchange.head;
   Request& request = head.request;
   const ResponseForm form{request.method == "HEAD", head.is_http_1_0, head.closes};
@@ -26,6 +26,12 @@ Served serve(Services& services, const std::vector<Route>& routes, Exchange& exc
   request.id = random_hex(8);
   request.gone = exchange.gone.get_token();
   return write_response(dispatch(services, routes, std::move(request)), form);
+} catch (const std::exception& bug) {
+  // Beyond what dispatch() catches: memory was short when an answer was put together. No answer, and the connection
+  // closes; nothing that a request does may end the process.
+  services.metrics.add("tilelight_http_refused_total", "status=\"none\"");
+  services.log.write(LogLevel::error, "bug", {{"client", exchange.client}, {"what", std::string(bug.what())}});
+  return {"", nullptr, true};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct Listener {
   int fd = -1;
   int port = 0;  // the real one where 0 was asked for
 };
-// Binds a name or an address (IPv4 or IPv6). Errors: bind.
+// Binds a numeric address (IPv4 or IPv6). Errors: bind.
 Result<Listener> listen_on(const std::string& host, int port);
 
 struct Peer {

@@ -9,19 +9,32 @@ struct Wish {
   std::optional<ImageFormat> image;  // wait and answer with it; nothing: answer with the job
 };
 
-// formats: those that there are of the picture.
-::tl::expected<Wish, Problem> read_wish(const Request& request, const std::vector<ImageFormat>& formats) {
+// Of who asks by name for formats that the picture is not to be had in: what else there is and is accepted.
+std::optional<std::string_view> second_choice(const Request& request, const std::vector<ImageFormat>& formats) {
+  std::vector<std::string_view> offers;
+  if (asked_image_format(request, image_formats(true))) {
+    for (const ImageFormat format : formats) offers.push_back(media_type(format));
+  }
+  offers.emplace_back("application/json");
+  return best_offer(request, offers);
+}
+
+// formats: those that there are of the picture. size: of the picture, where it is known.
+::tl::expected<Wish, Problem> read_wish(const Request& request, const std::vector<ImageFormat>& formats,
+                                        const ImageSpec& size) {
   // With both, it is a job where it takes longer than the wait (RFC 7240, 4.3).
   const Preferences preferences = read_preferences(request);
   if (preferences.respond_async && !preferences.wait_s) return Wish{};
-  const auto image = asked_image_format(request, formats);
-  if (!image && !best_offer(request, {"application/json"})) {
-    return problem(
-        406, "not_acceptable",
-        "a render can be answered as image/png, image/jpeg or image/x-exr, one by the algorithm roberts also "
-        "as image/svg+xml or, as a job, as application/json");
-  }
-  return Wish{image};
+  if (const auto image = asked_image_format(request, formats)) return Wish{image};
+  if (const auto type = second_choice(request, formats)) return Wish{image_format_from_media_type(*type)};
+  return not_acceptable(request,
+                        "a render can be answered as image/png, image/jpeg or image/x-exr, one by the algorithm "
+                        "roberts also as image/svg+xml or, as a job, as application/json",
+                        size.width, size.height);
+}
+
+::tl::expected<Wish, Problem> read_wish(const Request& request, const View& view) {
+  return read_wish(request, image_formats(view), view.image);
 }
 
 // Waits for the work; the image, or nothing if it takes longer than the client waits.
@@ -34,7 +47,7 @@ struct Wish {
   if (!has_ended) return std::optional<Response>();
   if (work.state() != JobState::done) return ended_without_image(work.status());
   auto image = work.encoded(format, services.pool);
-  if (!image) return problem(410, image.error().code, image.error().detail);
+  if (!image) return not_encoded(services, request, image.error());
   Response response = image_response(work, *image, format);
   response.with("Cache-Control", "no-store");
   tell_wait(services, request, response);
@@ -60,7 +73,7 @@ using Claim = std::optional<IdempotencyKeys::Claim>;
   const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
   if (!record) return std::optional<Response>();
   if (const WorkPtr work = services.jobs.work(record->id)) {
-    const auto wish = read_wish(request, image_formats(work->request().view));
+    const auto wish = read_wish(request, work->request().view);
     if (!wish) return ::tl::unexpected(wish.error());
     if (wish->image) {
       auto image = wait_for_image(services, request, *work, *wish->image);
@@ -87,7 +100,7 @@ Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& r
 
 Reply submit_order(Services& services, const Request& request, const Claim& claim, Ordered&& ordered) {
   RenderRequest& render = ordered.render;
-  const auto wish = read_wish(request, image_formats(render.view));
+  const auto wish = read_wish(request, render.view);
   if (!wish) return ::tl::unexpected(wish.error());
   render.format = wish->image.value_or(render.format);
   render.priority = ordered.priority.value_or(wish->image ? Priority::normal : Priority::batch);
@@ -110,7 +123,8 @@ Reply submit_order(Services& services, const Request& request, const Claim& clai
 Reply accept_order(Services& services, const Request& request, const std::string& content_hash,
                    const std::function<::tl::expected<Ordered, Problem>()>& prepare) {
   // What nobody could answer is refused before the body is read.
-  if (const auto wish = read_wish(request, image_formats(true)); !wish) return ::tl::unexpected(wish.error());
+  if (const auto wish = read_wish(request, image_formats(true), ImageSpec{}); !wish)
+    return ::tl::unexpected(wish.error());
   const auto key = read_idempotency_key(request);
   if (!key) return ::tl::unexpected(key.error());
   Claim claim;

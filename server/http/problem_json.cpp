@@ -81,8 +81,9 @@ Response problem_response(const Problem& problem, std::string_view request_id) {
     document["errors"] = std::move(errors);
   }
   Response response{problem.status, problem.headers, "application/problem+json", ""};
-  // What a client sent may be quoted in the detail and need not be UTF-8.
-  response.body = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  // What a client sent may be quoted in the detail. It need not be UTF-8, and must not steer the terminal that shows
+  // it.
+  response.body = printable_json(document.dump(-1, ' ', false, Json::error_handler_t::replace));
   response.with("Cache-Control", "no-store");
   return response;
 }

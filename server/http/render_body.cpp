@@ -82,6 +82,10 @@ void check_format(std::optional<ImageFormat> format, const View& view, MemberErr
   const std::vector<ImageFormat> formats = image_formats(view);
   if (!format || std::find(formats.begin(), formats.end(), *format) != formats.end()) return;
   const auto names = names_of(formats);
+  if (const auto fits = check_image_size(*format, view.image.width, view.image.height); !fits) {
+    errors.add("format", fits.error().code, fits.error().detail, names, "/v1/limits has the limits of all formats");
+    return;
+  }
   errors.add("format", "no_lines",
              "found \"" + std::string(image_format_name(*format)) +
                  "\", which is of lines, and this picture has none; allowed: " + join(names),

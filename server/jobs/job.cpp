@@ -56,6 +56,12 @@ std::vector<ImageFormat> image_formats(bool with_lines) {
   return formats;
 }
 
+std::vector<ImageFormat> image_formats(bool with_lines, int width, int height) {
+  std::vector<ImageFormat> formats = image_formats(with_lines);
+  std::erase_if(formats, [&](ImageFormat format) { return !check_image_size(format, width, height); });
+  return formats;
+}
+
 std::string view_fingerprint(const View& view) {
   std::string out = "view1:";
   if (view.camera) {

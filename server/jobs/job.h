@@ -35,9 +35,13 @@ inline bool is_final(JobState state) { return state != JobState::queued && state
 std::string_view priority_name(Priority priority);
 std::string_view image_format_name(ImageFormat format);  // "png", "jpeg", "exr", "svg"
 std::optional<ImageFormat> find_image_format(std::string_view name);
-// In which a picture can be had, the preferred one first. with_lines: svg too, for line drawings.
+// In which pictures can be had, the preferred one first. with_lines: svg too, for line drawings.
 std::vector<ImageFormat> image_formats(bool with_lines);
-inline std::vector<ImageFormat> image_formats(const View& view) { return image_formats(draws_lines(view)); }
+// The same for a picture of this size: those whose limits it keeps.
+std::vector<ImageFormat> image_formats(bool with_lines, int width, int height);
+inline std::vector<ImageFormat> image_formats(const View& view) {
+  return image_formats(draws_lines(view), view.image.width, view.image.height);
+}
 
 // The done render that another one goes on from.
 struct RefineSource {
@@ -79,6 +83,7 @@ struct WorkStatus {
   Timings timings;
   int64_t created_ms = 0, started_ms = 0, finished_ms = 0;  // wall clock; 0: not yet
   std::string error;                                        // state failed: for the client, no inside information
+  std::optional<int64_t> clamped;                           // of the final image: values that no 32-bit float can hold
 };
 
 // What a job store keeps of a job.
@@ -99,7 +104,8 @@ struct JobRecord {
 // An encoded image and its strong entity tag.
 struct EncodedImage {
   std::string bytes;
-  std::string etag;  // quoted
+  std::string etag;     // quoted
+  int64_t clamped = 0;  // values of the picture that the format cannot hold
 };
 using EncodedPtr = std::shared_ptr<const EncodedImage>;
 

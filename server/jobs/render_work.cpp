@@ -84,6 +84,7 @@ Result<EncodedPtr> RenderWork::encode(ImageFormat format) {
   lock.lock();
   status_.timings.encode_ms += ms_since(start);
   if (encoded) encoded_bytes_ += static_cast<int64_t>((*encoded)->bytes.size());
+  if (!encoded) encodings_.erase(format);  // memory that is short now need not be so for who asks next
   return encoded;
 }
 
@@ -226,6 +227,8 @@ void RenderWork::take_result() {
   auto progress = render->progress();
   auto report = render->report();
   auto film = render->exposed_film();
+  std::optional<int64_t> clamped;
+  if (picture.image) clamped = count_clamped(*picture.image, request_.view.image.exposure, ImageFormat::exr);
   const std::lock_guard lock(mutex_);
   if (keeps_film_) film_ = std::move(film);
   picture_ = std::move(picture);
@@ -233,6 +236,7 @@ void RenderWork::take_result() {
   status_.timings.render_ms = progress.elapsed_ms;
   status_.progress = std::move(progress);
   status_.report = std::move(report);
+  status_.clamped = clamped;
   render_ = nullptr;
 }
 
@@ -258,8 +262,9 @@ void RenderWork::request_cancel() {
   if (const auto render = this->render()) render->cancel();
 }
 
-EncodedPtr tagged(std::string bytes) {
+EncodedPtr tagged(std::string bytes, int64_t clamped) {
   auto encoded = std::make_shared<EncodedImage>();
+  encoded->clamped = clamped;
   encoded->etag = "\"" + sha256_hex(bytes).substr(0, 32) + "\"";
   encoded->bytes = std::move(bytes);
   return encoded;
@@ -268,7 +273,7 @@ EncodedPtr tagged(std::string bytes) {
 Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format) {
   auto bytes = encode_image(image, exposure_stops, format);
   if (!bytes) return ::tl::unexpected(bytes.error());
-  return tagged(std::move(*bytes));
+  return tagged(std::move(*bytes), count_clamped(image, exposure_stops, format));
 }
 
 }  // namespace tilelight::server

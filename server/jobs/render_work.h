@@ -118,7 +118,7 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
 using WorkPtr = std::shared_ptr<RenderWork>;
 
 // Tags what is encoded already.
-EncodedPtr tagged(std::string bytes);
+EncodedPtr tagged(std::string bytes, int64_t clamped = 0);
 // Encodes and tags an image.
 Result<EncodedPtr> encode_tagged(const Image& image, double exposure_stops, ImageFormat format);
 

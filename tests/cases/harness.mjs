@@ -56,6 +56,24 @@ export async function explainPixel(name, x = 0, y = 0) {
   return JSON.parse(stdout);
 }
 
+// Runs tilelightd to its end, which its configuration or its flags are to bring about; {code, stdout, stderr}: code
+// null where it had to be ended after a minute.
+export function tilelightd(args, { env = {} } = {}) {
+  return new Promise((resolve) => {
+    execFile(process.env.TILELIGHTD, args, { env: { ...process.env, ...env }, timeout: 60_000, killSignal: 'SIGKILL' },
+      (error, stdout, stderr) => resolve({ code: error ? error.code : 0, stdout, stderr }));
+  });
+}
+
+// Runs a line of sh with the two programs as $TILELIGHT and $TILELIGHTD; {code, stdout, stderr}.
+export function shell(line, cwd) {
+  return new Promise((resolve) => {
+    execFile('sh', ['-c', line], { cwd, timeout: 60_000, killSignal: 'SIGKILL' }, (error, stdout, stderr) => {
+      resolve({ code: error ? error.code : 0, stdout, stderr });
+    });
+  });
+}
+
 // POSTs a scene document to `path`; the fetch response.
 export const post = (server, path, body, headers = {}) => fetch(server.url + path, {
   method: 'POST', headers: { 'Content-Type': 'application/json', ...headers },

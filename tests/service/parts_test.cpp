@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pure parts of the server by themselves (heads: head_test.cpp): spans of JSON, negotiation, configuration, log
-// lines, times.
+// The pure parts of the server by themselves (heads: head_test.cpp): spans of JSON, negotiation, times.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "server/clock.h"
-#include "server/config.h"
 #include "server/http/json_members.h"
 #include "server/http/negotiate.h"
 #include "server/jobs/job.h"
-#include "server/log.h"
 
 namespace tilelight::server {
 namespace {
@@ -159,58 +155,6 @@ TEST(IfNoneMatch, ComparesWeaklyAndKnowsLists) {
   EXPECT_TRUE(has_current(with_header("If-None-Match", "*"), "\"a\""));
   EXPECT_FALSE(has_current(with_header("If-None-Match", "\"ab\""), "\"a\""));
   EXPECT_FALSE(has_current({}, "\"a\""));
-}
-
-Result<ConfigRequest> load(std::vector<const char*> flags, std::map<std::string, std::string> environment = {}) {
-  flags.insert(flags.begin(), "tilelightd");
-  return load_config(static_cast<int>(flags.size()), flags.data(), environment);
-}
-
-TEST(Config, FlagsWinOverTheEnvironmentOverTheFileOverTheDefaults) {
-  const std::string path = ::testing::TempDir() + "tilelight_config_test.json";
-  std::ofstream(path) << R"({"port": 1, "threads": 1, "max_queue": 1})";
-  const std::string flag = "--config=" + path;
-  const auto loaded = load({flag.c_str(), "--port", "3"}, {{"TILELIGHT_PORT", "2"}, {"TILELIGHT_THREADS", "2"}});
-  ASSERT_TRUE(loaded) << loaded.error().detail;
-  EXPECT_EQ(loaded->config.port, 3);
-  EXPECT_EQ(loaded->config.threads, 2);
-  EXPECT_EQ(loaded->config.max_queue, 1);
-  EXPECT_EQ(loaded->config.admin_port, 8081);
-  std::ofstream(path) << R"({"prot": 1})";
-  EXPECT_NE(load({flag.c_str()}).error().detail.find("prot"), std::string::npos);
-}
-
-TEST(Config, UnknownNamesAndBadValuesRefuseToStartAndAreNamed) {
-  EXPECT_NE(load({"--prot", "1"}).error().detail.find("--prot"), std::string::npos);
-  EXPECT_NE(load({}, {{"TILELIGHT_PROT", "1"}}).error().detail.find("TILELIGHT_PROT"), std::string::npos);
-  EXPECT_NE(load({"--port", "70000"}).error().detail.find("70000"), std::string::npos);
-  EXPECT_FALSE(load({"--max-results", "10001"})) << "more than there are records to find them by";
-  EXPECT_NE(load({"--data-dir", "/tmp/x"}).error().detail.find(":memory:"), std::string::npos);
-  EXPECT_NE(load({"--config", "/nowhere.json"}).error().detail.find("/nowhere.json"), std::string::npos);
-}
-
-TEST(Config, APublicAddressNeedsAWordOfAssent) {
-  EXPECT_NE(load({"--host", "0.0.0.0"}).error().detail.find("--allow-open"), std::string::npos);
-  EXPECT_FALSE(load({"--admin-host", "0.0.0.0"}));
-  EXPECT_TRUE(load({"--host", "0.0.0.0", "--allow-open"}));
-  EXPECT_TRUE(load({"--host", "::1"}));
-  EXPECT_TRUE(load({"--data-dir", ":memory:", "--quiet"}));
-}
-
-TEST(Config, EverySettingIsInTheHelp) {
-  const auto help = load({"--help"});
-  ASSERT_TRUE(help);
-  for (const Setting& setting : settings()) {
-    EXPECT_NE(help->text.find("--" + std::string(setting.name)), std::string::npos) << setting.name;
-  }
-}
-
-TEST(LogLine, StaysALineWhateverAClientSends) {
-  const Log::Fields fields = {{"path", "/a\nb \"c\""}, {"status", int64_t{200}}, {"ms", 1.5}};
-  EXPECT_EQ(log_line_text("request", fields), "request path=\"/a\\x0ab \\\"c\\\"\" status=200 ms=1.50");
-  const auto json = nlohmann::json::parse(log_line_json("now", "info", "request", fields));
-  EXPECT_EQ(json.at("path"), "/a\nb \"c\"");
-  EXPECT_EQ(log_line_json("now", "info", "x", {{"y", "\xff\n"}}).find('\n'), std::string::npos);
 }
 
 TEST(Time, OfHttpIsWrittenByRfc9110) {

@@ -30,7 +30,7 @@ TEST(Messages, HoldNothingThatATerminalWouldActOnAndNothingUnseen) {
   EXPECT_EQ(visible_text("a b"), "a b");
   EXPECT_EQ(visible_text("\x1B[2J\r\n\t\x7F"), "\\u001b[2J\\r\\n\\t\\u007f");
   EXPECT_EQ(visible_text("\xC2\x9B\xC2\xA0\xE2\x80\xAE\xEF\xBB\xBF"), "\\u009b\\u00a0\\u202e\\ufeff");
-  EXPECT_EQ(visible_text("\xF3\xA0\x80\xA1"), "\\u{e0021}");
+  EXPECT_EQ(visible_text("\xF3\xA0\x80\xA1"), "\\U000e0021");
   EXPECT_EQ(visible_text("\xC3\xA9\xE2\x99\x9E"), "\xC3\xA9\xE2\x99\x9E");
   EXPECT_EQ(visible_text("\xFF"), "\\xff");
 }

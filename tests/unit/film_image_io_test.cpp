@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <regex>
 #include <string>
 #include <thread>
@@ -105,15 +107,100 @@ TEST(ImageIo, JpegIsCloseOnASmoothPicture) {
   EXPECT_LT(std::sqrt(square / expected.size()), 3.0);
 }
 
-TEST(ImageIo, ExrKeepsLinearValuesBeyondTheDisplayToHalfPrecision) {
+// What an EXR of the values (three a pixel) holds.
+std::vector<float> through_exr(const Image& image, double exposure_stops = 0.0) {
+  const auto bytes = encode_image(image, exposure_stops, ImageFormat::exr);
+  if (!bytes) return ADD_FAILURE() << bytes.error().detail, std::vector<float>();
+  const auto back = decode_linear(*bytes, ImageFormat::exr, 1 << 24);
+  if (!back) return ADD_FAILURE() << back.error().detail, std::vector<float>();
+  EXPECT_EQ(std::pair(back->width, back->height), std::pair(image.width, image.height));
+  return back->rgb;
+}
+
+constexpr float kMostFloat = std::numeric_limits<float>::max(), kInfinity = std::numeric_limits<float>::infinity(),
+                kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(ImageIo, ExrKeepsEveryBitOfLinearValues) {
   Image image = gradient(40, 30);
-  image.rgb[0] = 1000.0f;
-  const auto bytes = encode_image(image, 1.0, ImageFormat::exr);
-  ASSERT_TRUE(bytes) << bytes.error().detail;
-  const auto back = decode_linear(*bytes, ImageFormat::exr, 1 << 20);
-  ASSERT_TRUE(back) << back.error().detail;
-  for (size_t i = 0; i < image.rgb.size(); ++i)
-    ASSERT_NEAR(back->rgb[i], 2.0f * image.rgb[i], std::fabs(image.rgb[i]) * 0x1p-10 + 1e-7) << i;
+  EXPECT_EQ(through_exr(image), image.rgb);
+  // The largest half, the first over it, the largest float; its least normal number, its least at all.
+  image = {3, 1, {65504.0f, 65520.0f, -70000.0f, kMostFloat, -kMostFloat, 1e30f, 0x1p-126f, 0x1p-149f, -0x1p-149f}};
+  EXPECT_EQ(through_exr(image), image.rgb);
+  EXPECT_EQ(count_clamped(image, 0.0, ImageFormat::exr), 0);
+}
+
+TEST(ImageIo, ExrClampsWhatAFloatCannotHoldAndCountsIt) {
+  const Image image{3, 1, {kMostFloat, -kMostFloat, 1.0f, kInfinity, -kInfinity, kNan, 0.5f, 0.0f, 1e30f}};
+  const std::vector<float> doubled = {kMostFloat, -kMostFloat, 2.0f, kMostFloat, -kMostFloat, 0.0f, 1.0f, 0.0f, 2e30f};
+  EXPECT_EQ(through_exr(image, 1.0), doubled);
+  EXPECT_EQ(count_clamped(image, 1.0, ImageFormat::exr), 5);
+  EXPECT_EQ(count_clamped(image, 0.0, ImageFormat::exr), 3) << "the largest float is one";
+  // 2^1000 leaves even doubles.
+  EXPECT_EQ(through_exr(image, 1000.0)[2], kMostFloat);
+  EXPECT_EQ(count_clamped(image, 1000.0, ImageFormat::exr), 8) << "all but 0";
+  EXPECT_EQ(through_exr(image, -1000.0)[2], 0.0f);
+}
+
+TEST(ImageIo, ADisplayShowsInfinityAsWhiteAndNanAsBlackAndBothAreCounted) {
+  const Image image{2, 1, {kInfinity, -kInfinity, kNan, 1e30f, 0.0f, 1.0f}};
+  const auto back = decode_image(*encode_image(image, 0.0, ImageFormat::png), ImageFormat::png, 2);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->rgb, (std::vector<uint8_t>{255, 0, 0, 255, 0, 255}));
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg})
+    EXPECT_EQ(count_clamped(image, 0.0, format), 3) << "what is over white is no loss there";
+  EXPECT_EQ(count_clamped(image, 1000.0, ImageFormat::png), 3);
+}
+
+Image grey(int width, int height) {
+  return {width, height, std::vector<float>(3 * static_cast<size_t>(width) * static_cast<size_t>(height), 0.25f)};
+}
+
+TEST(ImageIo, EveryFormatHoldsASideUpToItsLimitAndRefusesALongerOneByName) {
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+    const int side = max_image_side(format);
+    for (const auto& [width, height] : {std::pair(side, 1), {1, side}}) {
+      const auto bytes = encode_image(grey(width, height), 0.0, format);
+      ASSERT_TRUE(bytes) << bytes.error().detail;
+      const auto back = decode_linear(*bytes, format, side);
+      ASSERT_TRUE(back) << media_type(format) << ": " << back.error().detail;
+      EXPECT_EQ(std::pair(back->width, back->height), std::pair(width, height));
+      EXPECT_NEAR(back->rgb.back(), 0.25, 0.01);
+    }
+    for (const auto& [width, height] : {std::pair(side + 1, 1), {1, side + 1}}) {
+      const auto refused = encode_image(grey(width, height), 0.0, format);
+      ASSERT_FALSE(refused) << media_type(format);
+      EXPECT_EQ(refused.error().code, "format_limit");
+      EXPECT_NE(refused.error().detail.find(std::to_string(side)), std::string::npos) << refused.error().detail;
+      EXPECT_NE(refused.error().detail.find(std::to_string(side + 1)), std::string::npos) << refused.error().detail;
+    }
+  }
+  EXPECT_EQ(max_image_side(ImageFormat::jpeg), 65'500) << "libjpeg's";
+}
+
+TEST(ImageIo, JpegsOfAnySizeAreWhole) {
+  for (const auto& [width, height] :
+       {std::pair(1, 1), {1, 17}, {17, 1}, {15, 16}, {16, 15}, {257, 129}, {2000, 1500}}) {
+    const auto back =
+        decode_image(*encode_image(grey(width, height), 0.0, ImageFormat::jpeg), ImageFormat::jpeg, 1 << 24);
+    ASSERT_TRUE(back) << back.error().detail;
+    EXPECT_EQ(std::pair(back->width, back->height), std::pair(width, height));
+    const auto [least, most] = std::minmax_element(back->rgb.begin(), back->rgb.end());
+    EXPECT_LE(*most - *least, 1) << "one grey";
+    EXPECT_NEAR(*least, 137, 1) << "0.25 displayed";
+  }
+}
+
+TEST(ImageIo, AJpegThatIsBrokenIsAnErrorAndNoEnd) {
+  const auto whole = *encode_image(gradient(64, 64), 0.0, ImageFormat::jpeg);
+  for (size_t size = 0; size < whole.size() / 2; size += 7) {
+    const auto back = decode_image(std::string_view(whole).substr(0, size), ImageFormat::jpeg, 1 << 20);
+    if (size < 600) EXPECT_FALSE(back) << size << ": its head is not there";
+  }
+  for (size_t at = 2; at < whole.size(); at += 11) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(~bytes[at]);
+    static_cast<void>(decode_image(bytes, ImageFormat::jpeg, 1 << 20));
+  }
 }
 
 TEST(ImageIo, TheSameImageGivesTheSameBytesOnAnyThread) {
