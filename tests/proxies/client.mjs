@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A client that sends the header fields of a browser, which fetch() would not, and keeps a transcript.
 import http from 'node:http';
+import http2 from 'node:http2';
 import https from 'node:https';
+import tls from 'node:tls';
 import { kSite } from '../support/proxies.mjs';
 
 const kShown = ['location', 'link', 'preference-applied', 'cache-control', 'vary', 'age'];
@@ -49,6 +51,23 @@ export class Client {
   async json(method, path, options) {
     return JSON.parse((await this.ask(method, path, options)).body);
   }
+}
+
+// The status of a request by HTTP/2, which has no Host field but :authority.
+export function statusByHttp2({ origin, port }, method, path, headers, body) {
+  return new Promise((resolve, reject) => {
+    const session = http2.connect(origin, {
+      createConnection: () => tls.connect({ host: '127.0.0.1', port, servername: kSite, ALPNProtocols: ['h2'], rejectUnauthorized: false }),
+    });
+    session.on('error', reject);
+    const request = session.request({ ':method': method, ':path': path, 'content-type': 'application/json', ...headers });
+    request.on('response', (answer) => {
+      resolve(answer[':status']);
+      session.destroy();
+    });
+    request.on('error', reject);
+    request.end(JSON.stringify(body));
+  });
 }
 
 // The value of a metric, by name and labels as printed; 0 where there is none.

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { startServer } from '../support/server.mjs';
 import { kSite, startDocumentedHaproxy, startDocumentedNginx } from '../support/proxies.mjs';
-import { Client, metric } from './client.mjs';
+import { Client, metric, statusByHttp2 } from './client.mjs';
 
 const kScene = { objects: [{ type: 'sphere' }], image: { width: 8, height: 8 }, render: { samples: 1 } };
 const kEndless = { objects: [{ type: 'chess_position', detail: 48 }], image: { width: 1000, height: 1000 }, render: { samples: 4096, seed: 77 } };
@@ -58,6 +58,13 @@ for (const [name, startProxy] of [['nginx', startDocumentedNginx], ['HAProxy', s
       assert.equal(await statusWith({ Origin: client.origin.replace('https', 'http') }), 403, 'the same without TLS is another origin');
       assert.equal(await statusWith({ Origin: `https://${kSite}` }), 403, 'and so is another port');
       assert.equal(await statusWith({ Origin: 'null' }), 403);
+    });
+
+    test('by HTTP/2 the page is known too', async (t) => {
+      const client = clientOf(t);
+      const statusOf = (Origin) => statusByHttp2(client, 'POST', '/v1/renders', { Origin, ...kPng }, kScene);
+      assert.equal(await statusOf(client.origin), 200);
+      assert.equal(await statusOf('https://evil.example'), 403);
     });
 
     test('a name that is not ours reaches nothing', async (t) => {
