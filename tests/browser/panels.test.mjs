@@ -321,6 +321,18 @@ test('clicks while a picture is being made start no second render', async () => 
   });
 });
 
+test('in a low window the editor stays within its panel, which scrolls', async () => {
+  await onPage({ server, settings: { viewport: { width: 640, height: 360 } }, path: '/#scene=endgame&samples=1' }, async ({ page }) => {
+    await openPanel(page, 'edit');
+    await page.locator('#editor-text').scrollIntoViewIfNeeded();
+    const [panel, editor] = await page.evaluate(() => ['edit-panel', 'editor']
+      .map((id) => document.getElementById(id).getBoundingClientRect().bottom));
+    assert.ok(editor <= panel + 0.5, `${editor} is below ${panel}`);
+    await page.click('#editor-text');
+    await shoot(page, 'low-edit');
+  });
+});
+
 for (const [name, settings] of [['phone', kPhone], ['tablet', { viewport: { width: 768, height: 1024 } }],
   ['desktop', kDesktop]]) {
   test(`nothing sticks out of a ${name}, with any panel open`, async () => {

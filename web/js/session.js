@@ -30,9 +30,9 @@ export class ViewSession {
   #overdueTimer = 0;
   #recovery = null;      // token of the attempt to go on after a failure
 
-  // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, moving also where a newer one is
-  // on its way, latencyMs with the first frame of the newest; `on.overdue()` says that a moving view was given up; `on.state(name, problem)` is one of live, busy,
-  // offline, failed. `now` is in milliseconds.
+  // `on.frame({frame, moving, latencyMs})` gets every frame of a view that was asked for, moving also where a newer view
+  // is on its way, latencyMs with the first frame of the newest; `on.overdue()` says that a moving view was given up;
+  // `on.state(name, problem)` is one of live, busy, offline, failed. `now` is in milliseconds.
   constructor({ api, on, now = () => performance.now() }) {
     this.#api = api;
     this.#on = on;
