@@ -59,7 +59,11 @@ TEST(Waits, ARefinementThatIsNotReadyIsAJobToo) {
 
 TEST(Waits, ASceneThatTakesLongToCompileIsAskedForAgainAndIsThereThen) {
   Service own(waiting_at_most(0));
-  for (const auto& [path, scene] : {std::pair("/v1/plan", small_scene()), std::pair("/v1/sessions", line_scene())}) {
+  // Half a million triangles and more: their tree is not there at once.
+  const auto large = [](const char* detail) {
+    return R"({"objects": [{"type": "chess_position", "detail": )" + std::string(detail) + "}]}";
+  };
+  for (const auto& [path, scene] : {std::pair("/v1/plan", large("90")), std::pair("/v1/sessions", large("91"))}) {
     HttpAnswer answer;
     int refusals = 0;
     do {
