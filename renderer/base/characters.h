@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Characters of UTF-8 text, and text of others made safe to show: what a terminal, an editor or a reader's eye would act
-// on instead of showing it becomes an escape. The door to utf8proc. Pure; any thread.
+// Characters of UTF-8 text, and text of others made safe to show: what a terminal, an editor or a reader's eye would
+// act on instead of showing it becomes an escape. The door to utf8proc. Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ bool is_white_space(char32_t code);
 // ignorable by default, or without a character: Unicode's Cc, Cf, Zl, Zp, Cs, Cn and Default_Ignorable_Code_Point.
 bool is_shown(char32_t code);
 
-// The text with all that is not shown as an escape: \n, \r, \t, \uXXXX, beyond U+FFFF \UXXXXXXXX; bytes that are no UTF-8
-// as \xXX. For people: backslashes stay as they are, so that it does not read back.
+// The text with all that is not shown as an escape: \n, \r, \t, \uXXXX, beyond U+FFFF \UXXXXXXXX; bytes that are no
+// UTF-8 as \xXX. For people: backslashes stay as they are, so that it does not read back.
 std::string printable(std::string_view text);
 
 // The same, but line feeds stay.
@@ -40,8 +40,8 @@ std::string printable_lines(std::string_view text);
 // The same, but white space other than ' ' is an escape too.
 std::string visible_text(std::string_view text);
 
-// A JSON text with all that is not shown as \uXXXX: it reads back to the same values. REQUIRES: valid JSON, so that such
-// characters stand within strings.
+// A JSON text with all that is not shown as \uXXXX: it reads back to the same values. REQUIRES: valid JSON, so that
+// such characters stand within strings.
 std::string printable_json(std::string_view json);
 
 // "'x'", "'é' (U+00E9)", "a line end", "U+00A0".

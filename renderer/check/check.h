@@ -78,7 +78,7 @@ std::span<const Row> invariance_rows();   // I
 std::span<const Row> camera_rows();       // C
 std::span<const Row> light_rows();        // L
 std::span<const Row> neighbour_rows();    // H: surfaces that nearly touch
-std::span<const Row> terminator_rows();   // H3: where the light ends on smooth meshes
+std::span<const Row> terminator_rows();   // H3, H8: where the light ends on smooth meshes
 std::span<const Row> bounce_rows();       // M: mirrors and media
 std::span<const Row> raster_rows();       // R: hidden surfaces and lines, drawn from triangles
 std::span<const Row> input_rows();        // N, J

@@ -18,9 +18,9 @@
 namespace tilelight {
 namespace {
 
-constexpr int kMostLevels = 256;          // POV-Ray's max_trace_level goes no further
-constexpr double kFarLight = 1e6;         // of directional lights, POV-Ray's units
-constexpr double kLeastFade = 1e-4;       // fade_distance where k is 0; light comes from farther off
+constexpr int kMostLevels = 256;     // POV-Ray's max_trace_level goes no further
+constexpr double kFarLight = 1e6;    // of directional lights, POV-Ray's units
+constexpr double kLeastFade = 1e-4;  // fade_distance where k is 0; light comes from farther off
 
 // A ray that meets no change of index goes on in POV-Ray without counting as a secondary one. So what bends nothing
 // bends a millionth, each body by another one.
@@ -110,7 +110,8 @@ class Writer {
     Color color = light.color * light.intensity * exposure_;
     const bool is_linear = mode == AttenuationMode::linear;
     const double fade = std::max((is_linear ? k : std::sqrt(k)) * space_.scale, kLeastFade);
-    if (mode != AttenuationMode::none) color *= 0.5 * (is_linear ? space_.scale / fade : std::pow(space_.scale / fade, 2));
+    if (mode != AttenuationMode::none)
+      color *= 0.5 * (is_linear ? space_.scale / fade : std::pow(space_.scale / fade, 2));
     const Vec3 place = space_.point(light.position);
     text.vector(place), text.add(", "), text.color(color);
     if (mode != AttenuationMode::none) text.add(" fade_distance %.12g fade_power %d", fade, is_linear ? 1 : 2);
@@ -167,8 +168,7 @@ class Writer {
     }
     const int flat_axis = body.kind == BodyKind::plane ? 1 : 3;
     objects_.add(" texture { " + textures_.name_of(body.material, {is_solid(body), flat_axis}));
-    if (is_checkered(scene_.materials[body.material]))
-      objects_.matrix(place * glm::inverse(body.pattern_from_local));
+    if (is_checkered(scene_.materials[body.material])) objects_.matrix(place * glm::inverse(body.pattern_from_local));
     objects_.add(" }");
     end_body(body);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The peer at its best: many settings of POV-Ray's anti-aliasing are tried once each; those that come to an error in the
-// least processor time are then drawn as often as our own runs, and are its series.
+// The peer at its best: many settings of POV-Ray's anti-aliasing are tried once each; those that come to an error in
+// the least processor time are then drawn as often as our own runs, and are its series.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -96,7 +96,8 @@ class Peer {
     std::vector<const Trial*> front;
     for (size_t i = 0; i < trials_.size(); ++i)
       if (is_on_front_[i]) front.push_back(&trials_[i]);
-    std::sort(front.begin(), front.end(), [](const Trial* a, const Trial* b) { return a->drawing.cpu_ms < b->drawing.cpu_ms; });
+    std::sort(front.begin(), front.end(),
+              [](const Trial* a, const Trial* b) { return a->drawing.cpu_ms < b->drawing.cpu_ms; });
     std::vector<PovSetting> out;
     double level = INFINITY;
     for (const Trial* trial : front) {
@@ -108,7 +109,10 @@ class Peer {
   }
 
   StudySeries drawn_as_often(const std::vector<PovSetting>& settings) const {
-    StudySeries series{.name = "POV-Ray", .method = "POV-Ray", .shading = "phong", .sampling = "its best settings",
+    StudySeries series{.name = "POV-Ray",
+                       .method = "POV-Ray",
+                       .shading = "phong",
+                       .sampling = "its best settings",
                        .precision = "double"};
     std::vector<std::vector<Drawing>> drawings(settings.size());
     for (int round = 0; round < studio_.options().rounds; ++round) {

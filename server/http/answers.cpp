@@ -80,7 +80,8 @@ void tell_preferences(const Services& services, const Request& request, Response
 }  // namespace
 
 void tell_wait(const Services& services, const Request& request, Response& response) {
-  if (const std::string wait = granted_wait(services, request); !wait.empty()) response.with("Preference-Applied", wait);
+  if (const std::string wait = granted_wait(services, request); !wait.empty())
+    response.with("Preference-Applied", wait);
 }
 
 ::tl::unexpected<Problem> refused(Services& services, const Error& error) {

@@ -35,13 +35,13 @@ struct Request {
   std::multimap<std::string, std::string> query;  // decoded
   Headers headers;                                // as sent: a percent sign in them is one
   std::string_view body;                          // lives as long as the request
-  std::string client;             // the address of who asks: the peer's, or what a trusted proxy says
-  std::string scheme;             // under which the client asks; empty where no trusted proxy says it
-  std::string host;               // that the client asks, as in Host
-  std::string prefix;             // of our paths as the client sees them, "/render"; empty: none
-  std::string id;                 // names the request in the log and in problems
-  std::stop_token gone;           // requested when the client closes its connection
-  std::vector<std::string> args;  // what the route's {names} matched
+  std::string client;                             // the address of who asks: the peer's, or what a trusted proxy says
+  std::string scheme;                             // under which the client asks; empty where no trusted proxy says it
+  std::string host;                               // that the client asks, as in Host
+  std::string prefix;                             // of our paths as the client sees them, "/render"; empty: none
+  std::string id;                                 // names the request in the log and in problems
+  std::stop_token gone;                           // requested when the client closes its connection
+  std::vector<std::string> args;                  // what the route's {names} matched
 
   // The first value, or nothing.
   std::optional<std::string_view> header(std::string_view name) const {

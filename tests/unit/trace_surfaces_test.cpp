@@ -122,7 +122,7 @@ TEST_F(Surfaces, AreLitAsOneHitIs) {
   }
 }
 
-TEST_F(Surfaces, OfRoundedFacetsSendShadowRaysFromAboveThem) {
+TEST_F(Surfaces, OfRoundedFacetsHaveTheCurveAboveThem) {
   SurfaceColumns columns;
   make_surfaces(*compiled_, rays_, hits_, {}, columns);
   int rounded = 0, lifted = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// H3: where the light ends on a mesh whose normals make it look round.
+// H3, H8: where the light ends on a mesh whose normals make it look round, and the shadows of what is close to it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "renderer/check/check.h"
@@ -87,9 +88,62 @@ Outcome terminator(const Context& context) {
            at_most(2.0, step, facet_step(context, Terminator::exact))}};
 }
 
+// The middle of a triangle of a mesh around the origin, and the way out of it.
+struct Facet {
+  std::array<Vec3, 3> corner;
+  Vec3 middle, out;
+  Facet(const MeshData& mesh, size_t triangle) {
+    for (size_t v = 0; v < 3; ++v) corner[v] = mesh.positions[mesh.indices[3 * triangle + v]];
+    middle = (corner[0] + corner[1] + corner[2]) / 3.0;
+    out = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+  }
+  // How high above its middle the tangent planes at the corners put the curve (Hanika 2021), of the unit sphere.
+  double lift() const {
+    double height = 0.0;
+    for (const Vec3& n : corner) height += glm::dot(n, n - middle) * glm::dot(n, out) / 3.0;
+    return height;
+  }
+};
+
+// A facet of the ball under a plate and, beyond that, the light; seen from between the facet and the plate.
+bool is_lit_under_plate(const Context& context, const MeshData& ball, const Facet& facet, double gap) {
+  ParsedScene parsed = lit_ball(1, true, Terminator::smooth, true);
+  parsed.scene.meshes = {ball};
+  parsed.scene.lights[0].direction = -facet.out;
+  const Vec3 x = glm::normalize(facet.corner[1] - facet.corner[0]);
+  Object& plate = parsed.scene.objects.emplace_back(parsed.scene.objects[0]);
+  plate.shape = BoxShape{{-0.02, gap, -0.02}, {0.02, gap + 1e-3, 0.02}};
+  plate.world_from_shape[0] = Vec4(x, 0.0), plate.world_from_shape[1] = Vec4(facet.out, 0.0);
+  plate.world_from_shape[2] = Vec4(glm::cross(x, facet.out), 0.0), plate.world_from_shape[3] = Vec4(facet.middle, 1.0);
+  Camera camera;
+  camera.projection = Projection::orthographic;
+  camera.position = facet.middle + 0.5 * gap * facet.out, camera.target = facet.middle;
+  camera.up = x, camera.height = 1e-9;
+  parsed.view.camera = camera;
+  return picture_of(parsed, context.pool).linear[0] > 0.0f;
+}
+
+Outcome contact_on_curve(const Context& context) {
+  MeshData ball = icosphere(2);
+  ball.normals = ball.positions;
+  const size_t step = context.is_quick ? 64 : 16;
+  int lit = 0, lit_by_offset = 0;
+  for (size_t triangle = 0; triangle < ball.indices.size() / 3; triangle += step) {
+    const Facet facet(ball, triangle);
+    for (const double part : {1e-6, 1e-3, 0.1, 0.5, 0.9, 1.1}) {  // of the offset
+      lit += is_lit_under_plate(context, ball, facet, part * facet.lift());
+      lit_by_offset += part < 1.0;
+    }
+  }
+  const char* what = "facets lit under a plate";
+  return {{at_most(0, what, lit)}, {at_most(0, what, lit_by_offset)}};
+}
+
 constexpr Row kRows[] = {
     {"H3", "the light's end on a smooth mesh", "320 triangles in place of a sphere, light from 60 degrees",
      "shadow rays from the facet (terminator: exact)", terminator},
+    {"H8", "contact on a smooth mesh", "a plate 1e-6 to 1.1 of the offset over a facet, straight under the light",
+     "every shadow ray from the curve (Hanika)", contact_on_curve},
 };
 
 }  // namespace
