@@ -151,8 +151,8 @@ Preferences read_preferences(const Request& request) {
   Preferences out;
   bool has_wait = false;
   for (const std::string& item : header_list(request, "prefer")) {
+    if (item.front() == ';') continue;
     const auto parts = split_unquoted(item, ';');  // a preference and its parameters, of which none means anything here
-    if (parts.empty()) continue;
     const size_t equals = parts[0].find('=');
     const std::string_view name = trim(std::string_view(parts[0]).substr(0, equals));
     const std::string value =

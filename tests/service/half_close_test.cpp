@@ -173,6 +173,7 @@ TEST_F(HalfCloseOfService, AStreamOfEventsGoesOnToItsEnd) {
     client.write("GET " + location + "/events HTTP/" + version + "\r\nHost: localhost\r\n\r\n");
     client.shut_down_sending();
     EXPECT_NE(client.take_through("event: progress").find("event: progress"), std::string::npos);
+    service_->clock().advance_ms(1'000.0);
     EXPECT_NE(client.take_through("event: progress").find("event: progress"), std::string::npos) << "and still";
     if (version == std::string("1.0")) {
       ask(service_->port(), "DELETE", location);

@@ -136,7 +136,7 @@ TEST_F(Refine, OnlyADoneRenderIsRefined) {
   EXPECT_EQ(problem_of(service_.post(running + "/refine", R"({"samples": 8})")), "404 no_such_render");
   const HttpAnswer read = service_.get(running + "/refine");
   EXPECT_EQ(read.status, 405);
-  EXPECT_EQ(read.header("allow"), "POST");
+  EXPECT_EQ(read.header("allow"), "POST, OPTIONS");
 }
 
 TEST_F(Refine, AFilmIsKeptForSomeMinutes) {
