@@ -28,9 +28,10 @@ struct FormatRow {
   std::array<std::string_view, 2> extensions;
   int max_side;
 };
-// A PNG may be longer, but libpng, by which nearly everybody reads it, refuses that unless it is told otherwise. What
-// OpenImageIO writes as EXR ends at 2^20.
-constexpr int kMaxPngSide = 1'000'000, kMaxExrSide = 1 << 20, kNoLimit = std::numeric_limits<int>::max();
+// A PNG may be longer, but libpng, by which nearly everybody reads it, refuses that unless it is told otherwise. The
+// last pixel of an EXR lies before INT_MAX / 2 (OpenEXR, Header::sanityCheck).
+constexpr int kNoLimit = std::numeric_limits<int>::max();
+constexpr int kMaxPngSide = 1'000'000, kMaxExrSide = kNoLimit / 2;
 constexpr std::array<FormatRow, 4> kFormats = {
     {{ImageFormat::png, "png", "PNG", "image/png", {"png", ""}, kMaxPngSide},
      {ImageFormat::jpeg, "jpeg", "JPEG", "image/jpeg", {"jpg", "jpeg"}, kMaxJpegSide},

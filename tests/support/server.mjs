@@ -5,7 +5,7 @@ import { spawn } from 'node:child_process';
 // Starts the server with further `flags`; {url, port, adminPort, output(), isAlive(), stop()}. The promise fails with the
 // server's output where it ends before it listens.
 export async function startServer(flags = []) {
-  const server = spawn(process.env.TILELIGHTD, ['--host', '127.0.0.1', '--port', '0', '--admin-port', '0',
+  const server = spawn(process.env.TILELIGHTD, ['--port', '0', '--admin-port', '0',
     '--data-dir', ':memory:', ...flags], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((resolve) => server.once('exit', resolve));
   let output = '';

@@ -156,7 +156,7 @@ Image grey(int width, int height) {
 }
 
 TEST(ImageIo, EveryFormatHoldsASideUpToItsLimitAndRefusesALongerOneByName) {
-  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::exr}) {
+  for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg}) {
     const int side = max_image_side(format);
     for (const auto& [width, height] : {std::pair(side, 1), {1, side}}) {
       const auto bytes = encode_image(grey(width, height), 0.0, format);
@@ -175,6 +175,13 @@ TEST(ImageIo, EveryFormatHoldsASideUpToItsLimitAndRefusesALongerOneByName) {
     }
   }
   EXPECT_EQ(max_image_side(ImageFormat::jpeg), 65'500) << "libjpeg's";
+  EXPECT_EQ(max_image_side(ImageFormat::png), 1'000'000) << "libpng's, of who reads it";
+}
+
+TEST(ImageIo, AnExrMayBeLongerThanAllOthers) {
+  const Image image = grey(1'000'001, 1);
+  EXPECT_TRUE(through_exr(image) == image.rgb);
+  EXPECT_FALSE(check_image_size(ImageFormat::exr, 1, 1 << 30)) << "what memory has room for comes first";
 }
 
 TEST(ImageIo, JpegsOfAnySizeAreWhole) {
@@ -194,7 +201,7 @@ TEST(ImageIo, AJpegThatIsBrokenIsAnErrorAndNoEnd) {
   const auto whole = *encode_image(gradient(64, 64), 0.0, ImageFormat::jpeg);
   for (size_t size = 0; size < whole.size() / 2; size += 7) {
     const auto back = decode_image(std::string_view(whole).substr(0, size), ImageFormat::jpeg, 1 << 20);
-    if (size < 600) EXPECT_FALSE(back) << size << ": its head is not there";
+    EXPECT_TRUE(size >= 600 || !back) << size << ": its head is not there";
   }
   for (size_t at = 2; at < whole.size(); at += 11) {
     std::string bytes = whole;
