@@ -80,12 +80,12 @@ Result<std::string> encode_error_map(const Render& render, const ViewPlan& plan,
 std::string report_of(const Render& render, const ParsedScene& parsed, const CompiledScene& compiled,
                       const ViewPlan& plan) {
   const Image& image = *render.image();
-  const ReportIdentity identity{TILELIGHT_VERSION,
-                                parsed.scene_id,
-                                image_hash(image),
-                                find_rounding(parsed.scene, compiled, plan),
-                                count_clamped(image, plan.view.image.exposure, ImageFormat::exr),
-                                parsed.warnings};
+  const int64_t clamped = count_clamped(image, plan.view.image.exposure, ImageFormat::exr);
+  auto warnings = parsed.warnings;
+  if (clamped > 0) warnings.push_back({"/image/exposure", "clamped", clamped_warning(clamped, ImageFormat::exr)});
+  const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id,
+                                image_hash(image), find_rounding(parsed.scene, compiled, plan),
+                                clamped,           std::move(warnings)};
   return report_json(render.report(), plan.plan, identity) + "\n";
 }
 

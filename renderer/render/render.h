@@ -116,15 +116,13 @@ class Render {
 // What the render cannot know of itself. Empty: not known, null in the report.
 struct ReportIdentity {
   std::string version, scene_id, image_hash;
-  std::optional<double> rounding = {};      // as find_rounding has it
-  std::optional<int64_t> clamped = {};      // values of the image that after exposure no 32-bit float can hold
-  std::vector<SceneWarning> warnings = {};  // of reading the scene; the plan has its own
+  std::optional<double> rounding = {};  // as find_rounding has it
+  std::optional<int64_t> clamped = {};  // values of the image that after exposure no 32-bit float can hold
+  std::vector<SceneWarning> warnings =
+      {};  // of reading the scene and of the image; the plan and the report have their own
 };
 // What the report tells that nobody should overlook, as the scene's own warnings are told.
 std::vector<SceneWarning> report_warnings(const RenderReport& report);
-// The same and what an EXR cannot hold, behind the warnings of reading the scene. clamped: as in ReportIdentity.
-std::vector<SceneWarning> result_warnings(std::vector<SceneWarning> read, const RenderReport& report,
-                                          std::optional<int64_t> clamped);
 
 // SHA-256 of the linear image: floats as they lie in memory, little-endian, RGB, row by row.
 std::string image_hash(const Image& image);

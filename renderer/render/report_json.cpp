@@ -38,14 +38,6 @@ std::vector<SceneWarning> report_warnings(const RenderReport& report) {
                " not finite, or over 1e34, and count as black; less light, or less of it reflected, keeps them"}};
 }
 
-std::vector<SceneWarning> result_warnings(std::vector<SceneWarning> read, const RenderReport& report,
-                                          std::optional<int64_t> clamped) {
-  for (SceneWarning& warning : report_warnings(report)) read.push_back(std::move(warning));
-  if (clamped.value_or(0) > 0)
-    read.push_back({"/image/exposure", "clamped", clamped_warning(*clamped, ImageFormat::exr)});
-  return read;
-}
-
 std::string image_hash(const Image& image) {
   return sha256_hex({reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size() * sizeof(float)});
 }
@@ -73,6 +65,8 @@ std::string report_json(const RenderReport& report, const Plan& plan, const Repo
                       {"lights_on_hits", p.lights_on_hits}});
   }
   const bool has_points = !report.points.empty();
+  auto warnings = identity.warnings;
+  for (SceneWarning& warning : report_warnings(report)) warnings.push_back(std::move(warning));
   const Json out = {
       {"points", points},
       {"stop", report.stop},

@@ -20,6 +20,14 @@ Json warnings_of(const std::vector<SceneWarning>& read, const Plan& plan = {}) {
   return Json::parse(warnings_json(read, plan.warnings));
 }
 
+// Of reading the scene, and of what an EXR of the picture cannot hold.
+std::vector<SceneWarning> warnings_beside_plan(const JobRecord& record) {
+  std::vector<SceneWarning> warnings = record.warnings;
+  const int64_t clamped = record.status.clamped.value_or(0);
+  if (clamped > 0) warnings.push_back({"/image/exposure", "clamped", clamped_warning(clamped, ImageFormat::exr)});
+  return warnings;
+}
+
 // As the scene language spells it, so that it can be sent back.
 Json camera_json(const Camera& camera) {
   const bool is_perspective = camera.projection == Projection::perspective;
@@ -67,7 +75,7 @@ Json brief_json(const JobRecord& record, std::string_view prefix) {
 std::string report_document(const JobRecord& record, const std::string& image_hash,
                             const std::optional<double>& rounding) {
   const ReportIdentity identity{TILELIGHT_VERSION, record.scene_id,       image_hash,
-                                rounding,          record.status.clamped, record.warnings};
+                                rounding,          record.status.clamped, warnings_beside_plan(record)};
   return report_json(record.status.report, record.status.plan.value_or(Plan{}), identity);
 }
 
@@ -75,8 +83,9 @@ std::string job_json(const JobRecord& record, std::string_view prefix) {
   const WorkStatus& status = record.status;
   Json out = brief_json(record, prefix);
   out["timings"] = timings_json(status.timings);
-  out["warnings"] = Json::parse(warnings_json(result_warnings(record.warnings, status.report, status.clamped),
-                                              status.plan.value_or(Plan{}).warnings));
+  auto warnings = warnings_beside_plan(record);
+  for (SceneWarning& warning : report_warnings(status.report)) warnings.push_back(std::move(warning));
+  out["warnings"] = warnings_of(warnings, status.plan.value_or(Plan{}));
   out["plan"] = status.plan ? Json::parse(plan_json(*status.plan)) : Json(nullptr);
   const bool has_report = status.plan && !status.report.points.empty();
   out["report"] = has_report ? Json::parse(report_document(record, "")) : Json(nullptr);
