@@ -109,7 +109,9 @@ TEST_P(Spellings, ShowTheSquaresAndTellOfTheRest) {
     ASSERT_EQ(position->left_out.size(), 1u) << GetParam().fen;
     EXPECT_NE(position->left_out[0].find(GetParam().left_out), std::string::npos) << position->left_out[0];
   }
-  if (GetParam().fen.size() < 1000) EXPECT_TRUE(fits_pattern(GetParam().fen)) << GetParam().fen;
+  if (GetParam().fen.size() < 1000) {
+    EXPECT_TRUE(fits_pattern(GetParam().fen)) << GetParam().fen;
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Fen, Spellings, testing::ValuesIn(kSpellings));
 

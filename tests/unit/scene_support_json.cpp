@@ -277,7 +277,7 @@ struct SchemaJudge::State {
   }
 };
 
-SchemaJudge::SchemaJudge(std::string_view schema) : state_(new State{json::parse(schema)}) {}
+SchemaJudge::SchemaJudge(std::string_view schema) : state_(new State{json::parse(schema), {}}) {}
 SchemaJudge::~SchemaJudge() { delete state_; }
 bool SchemaJudge::accepts(std::string_view document) const {
   return state_->accepts(state_->schema, json::parse(document));
