@@ -70,6 +70,24 @@ TEST(JsonMembers, KeptOnesStayWhereTheyWereAndParse) {
             nlohmann::json::parse(R"({"a": [1, 2]})"));
 }
 
+TEST(JsonMembers, WithoutAValueTheRestStaysWhereItWasAndParses) {
+  const std::string text = "\xEF\xBB\xBF{\"scene\": {\"a\": [1,\n2]}, \"format\": \"png\"}";
+  const auto members = scan_members(text);
+  ASSERT_TRUE(members) << "a byte order mark counts for nothing";
+  const std::string rest = without_value(text, *find_member(*members, "scene"));
+  EXPECT_EQ(rest.size(), text.size());
+  EXPECT_EQ(rest.find("\"format\""), text.find("\"format\""));
+  EXPECT_EQ(nlohmann::json::parse(rest), nlohmann::json::parse(R"({"scene": 0, "format": "png"})"));
+}
+
+TEST(JsonMembers, WholeNumbersAreThoseOfJson) {
+  const std::pair<const char*, int64_t> numbers[] = {
+      {"7", 7}, {"-7", -7}, {"7.0", 7}, {"0.7e1", 7}, {"9223372036854775807", INT64_MAX}};
+  for (const auto& [text, number] : numbers) EXPECT_EQ(json_whole_number(text), number) << text;
+  for (const char* text : {"", "7.5", "1e300", "9223372036854775808", "\"7\"", "[7]", "null", "7 7"})
+    EXPECT_EQ(json_whole_number(text), std::nullopt) << text;
+}
+
 Request with_header(std::string name, std::string value) {
   Request request;
   request.headers.emplace(std::move(name), std::move(value));

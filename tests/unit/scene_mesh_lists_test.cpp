@@ -97,11 +97,10 @@ TEST(MeshLists, TellAFaceOfFourCornersByItsPlace) {
 }
 
 TEST(MeshLists, AreNowhereElse) {
-  for (const char* member : {R"("position": [[1,2,3]])", R"("position": [[1,2,3],[1,2,3],[1,2,3]])"}) {
-    const auto errors = errors_of(R"({"camera": {)" + std::string(member) + R"(}, "objects": [{"type": "cube"}]})");
-    ASSERT_FALSE(errors.empty());
-    EXPECT_EQ(errors[0].code, "wrong_type") << test::listed(errors);
-    EXPECT_TRUE(errors[0].pointer == "/camera/position" || errors[0].pointer == "/camera/position/0");
+  for (const char* position : {"[[1,2,3]]", "[[1,2,3],[1,2,3],[1,2,3]]"}) {
+    const std::string document =
+        R"({"camera": {"position": )" + std::string(position) + R"(}, "objects": [{"type": "cube"}]})";
+    EXPECT_EQ(test::error_of(document, "wrong_type").pointer, "/camera/position/0");
   }
   EXPECT_EQ(errors_of(R"({"objects": [[1,2,3]]})")[0].pointer, "/objects/0");
   EXPECT_EQ(test::error_of(R"({"objects": [{"type": "cube", "matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]})",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -164,7 +163,7 @@ std::vector<std::string> single_mutations(std::string_view document) {
 
 struct SchemaJudge::State {
   json schema;
-  mutable std::map<std::string, std::optional<std::wregex>> patterns;
+  mutable std::map<std::pair<std::string, std::string>, bool> verdicts;
 
   static size_t length_of(const json& text) { return count_characters(text.get<std::string>()); }
 
@@ -250,11 +249,11 @@ struct SchemaJudge::State {
     return true;
   }
 
-  // In wide characters, for patterns name code points. The text is what JSON holds: UTF-8.
+  // In wide characters, for patterns name code points. Mutations of a document ask the same again and again.
   bool matches(const std::string& pattern, const std::string& text) const {
-    auto& compiled = patterns[pattern];
-    if (!compiled) compiled = std::wregex(wide(pattern), std::regex::ECMAScript | std::regex::optimize);
-    return std::regex_search(wide(text), *compiled);
+    const auto [found, is_new] = verdicts.try_emplace({pattern, text});
+    if (is_new) found->second = std::regex_search(wide(text), std::wregex(wide(pattern)));
+    return found->second;
   }
 
   static std::wstring wide(const std::string& text) {
