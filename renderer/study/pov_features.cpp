@@ -194,7 +194,7 @@ const std::array kFeatures = {
     PovFeature{"matrices", "sphere.matrix cube.matrix box.matrix plane.matrix mesh.matrix chess_piece.matrix "
                            "chess_position.matrix"},
     PovFeature{"details", "sphere.radius cube.size box.min box.max", PovSupport::approximate,
-               "bodies of less than a ten-thousandth of POV-Ray's reach are lost in its tolerances.", has_details},
+               "bodies ten million times smaller than the scene are lost in POV-Ray's tolerances.", has_details},
 };
 
 }  // namespace
