@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/base/elementary.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/study/pov_media.h"
 #include "renderer/study/pov_mesh.h"
@@ -50,18 +51,37 @@ bool has_partial_fresnel(const Subject& s) {
   return any_medium(s, [](const Material& m) { return m.fresnel && m.ior != 1.0 && m.reflection != Color(1.0); });
 }
 
-bool is_rounded_by_light(const Subject& s) {
+bool casts_shadow(const Subject& s, const Light& light) { return light.shadow && s.view.render.shadows; }
+
+bool is_rounded_by_shadows(const Subject& s) {
   if (s.view.render.terminator != Terminator::smooth) return false;
-  return !s.scene.lights.empty() &&
+  const auto& lights = s.scene.lights;
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) { return casts_shadow(s, light); }) &&
          any_body(s, [](const Body& body) { return body.mesh && !body.mesh->corner_normals.empty(); });
+}
+
+// A facet that faces away from a light lies in its own shadow; in POV-Ray only if the light casts shadows and the mesh
+// is closed.
+bool is_lit_behind_facets(const Subject& s) {
+  if (s.view.render.terminator != Terminator::exact) return false;
+  bool found = false;
+  for (const Body& body : s.bodies) {
+    for_each_smooth_corner(body, [&](const Vec3& place, const Vec3& facet, const Vec3& normal) {
+      for (const Light& light : s.scene.lights) {
+        if (casts_shadow(s, light) && body.mesh->closed) continue;
+        const Vec3 way = light.kind == LightKind::point ? light.position - place : -light.direction;
+        found = found || glm::dot(facet, way) * glm::dot(normal, way) < 0.0;
+      }
+    });
+  }
+  return found;
 }
 
 // More rays than the budget can come from one sample.
 bool may_spend_budget(const Subject& s) {
   const RenderSpec& render = s.view.render;
-  const bool branches =
-      any_material(s, [](const Material& m) { return is_clear(m) && m.reflection != Color(0.0); });
-  const double most = branches ? std::exp2(render.max_depth + 1.0) : render.max_depth + 1.0;
+  const bool branches = any_material(s, [](const Material& m) { return is_clear(m) && m.reflection != Color(0.0); });
+  const double most = branches ? elementary::exp2(render.max_depth + 1.0) : render.max_depth + 1.0;
   const bool follows = any_material(s, [](const Material& m) { return is_clear(m) || m.reflection != Color(0.0); });
   return follows && most > render.ray_budget;
 }
@@ -71,10 +91,25 @@ bool follows_rays(const Subject& s) {
 }
 
 // POV-Ray turns a normal to the eye, we to the side of the facet that is seen: where an interpolated normal looks away
-// from the eye and the facet does not, these are two. On fine meshes that is a rim of no width.
+// from the eye and the facet does not, these are two. Counts corners whose normal is far from their facet's, by how
+// large the eye sees them: where the two are near, that is a rim of no width.
 bool has_turned_normals(const Subject& s) {
-  return !s.scene.lights.empty() &&
-         any_body(s, [&](const Body& body) { return body.mesh && shows_turned_normals(body, *s.view.camera); });
+  constexpr double kNear = 0.8;    // cosine
+  constexpr double kShows = 5e-3;  // of a body's picture
+  const Camera& camera = *s.view.camera;
+  if (s.scene.lights.empty()) return false;
+  return any_body(s, [&](const Body& body) {
+    double all = 0.0, turned = 0.0;
+    for_each_smooth_corner(body, [&](const Vec3& place, const Vec3& facet, const Vec3& normal) {
+      const bool is_parallel = camera.projection == Projection::orthographic;
+      const Vec3 to_eye = safe_normalize(camera.position - (is_parallel ? camera.target : place));
+      const double seen = glm::dot(facet, to_eye);
+      all += std::abs(seen);
+      const bool is_far = glm::dot(facet, normal) < kNear * glm::length(facet) * glm::length(normal);
+      if (is_far && seen * glm::dot(normal, to_eye) < 0.0) turned += std::abs(seen);
+    });
+    return turned > kShows * all;
+  });
 }
 
 bool has_details(const Subject& s) {
@@ -90,8 +125,9 @@ bool is_far(const Subject& s) {
 
 const std::array kFeatures = {
     // The document and its view.
-    PovFeature{"document", "scene.tilelight scene.camera scene.image scene.render scene.lights scene.materials "
-                           "scene.meshes scene.objects"},
+    PovFeature{"document",
+               "scene.tilelight scene.camera scene.image scene.render scene.lights scene.materials "
+               "scene.meshes scene.objects"},
     PovFeature{"size of the picture", "image.width image.height"},
     PovFeature{"exposure", "image.exposure"},
     PovFeature{"perspective camera", "perspective.position perspective.target perspective.up perspective.fov_y_deg"},
@@ -103,10 +139,9 @@ const std::array kFeatures = {
     PovFeature{"other algorithms than raytrace", "render.algorithm", PovSupport::missing,
                "POV-Ray draws by rays, with mirrors and glass.",
                [](const Subject& s) { return s.view.render.algorithm != Algorithm::raytrace; }},
-    PovFeature{"hidden lines", "render.hidden_lines", PovSupport::missing, "POV-Ray draws no lines.",
-               [](const Subject& s) {
-                 return s.view.render.algorithm == Algorithm::roberts && s.view.render.hidden_lines;
-               }},
+    PovFeature{
+        "hidden lines", "render.hidden_lines", PovSupport::missing, "POV-Ray draws no lines.",
+        [](const Subject& s) { return s.view.render.algorithm == Algorithm::roberts && s.view.render.hidden_lines; }},
     PovFeature{"phong shading", "render.shading"},
     PovFeature{"flat and gouraud shading", "render.shading", PovSupport::missing,
                "POV-Ray evaluates light at every point, with the normal there.",
@@ -127,22 +162,29 @@ const std::array kFeatures = {
                "POV-Ray has none and traces all rays that depth and weight allow.", may_spend_budget},
     PovFeature{"exact terminator", "render.terminator"},
     PovFeature{"smooth terminator", "render.terminator", PovSupport::approximate,
-               "on meshes with interpolated normals light ends facet by facet in POV-Ray.", is_rounded_by_light},
+               "on meshes with interpolated normals light ends facet by facet in POV-Ray.", is_rounded_by_shadows},
+    PovFeature{
+        "exact terminator where nothing shades", "render.terminator", PovSupport::approximate,
+        "facets that face away from a light have its light in POV-Ray by their normals, if it casts no shadow or "
+        "their mesh is open.",
+        is_lit_behind_facets},
     PovFeature{"box filter", "render.filter"},
     PovFeature{"tent filter", "render.filter", PovSupport::missing, "POV-Ray weighs the square of a pixel alike.",
                [](const Subject& s) { return s.view.render.filter == PixelFilter::tent; }},
     PovFeature{"gaussian filter", "render.filter", PovSupport::missing, "POV-Ray weighs the square of a pixel alike.",
                [](const Subject& s) { return s.view.render.filter == PixelFilter::gaussian; }},
     // What decides how often the picture is sampled, and no more: each program has its own rules.
-    PovFeature{"rules of sampling", "render.samples render.rmse render.time_ms render.passes render.adaptive "
-                                    "render.seed"},
+    PovFeature{"rules of sampling",
+               "render.samples render.rmse render.time_ms render.passes render.adaptive "
+               "render.seed"},
     // Light.
     PovFeature{"background", "scene.background background.bottom background.top"},
     PovFeature{"ambient light", "scene.ambient material.ambient"},
     PovFeature{"attenuation", "scene.attenuation attenuation.mode attenuation.k"},
     PovFeature{"point lights", "point.name point.position point.color point.intensity"},
-    PovFeature{"directional lights", "directional.name directional.direction directional.color "
-                                     "directional.intensity"},
+    PovFeature{"directional lights",
+               "directional.name directional.direction directional.color "
+               "directional.intensity"},
     PovFeature{"lights without shadow", "point.shadow directional.shadow"},
     // Materials.
     PovFeature{"diffuse reflection", "material.name material.diffuse"},
@@ -155,8 +197,8 @@ const std::array kFeatures = {
     PovFeature{"transmission", "material.transmission"},
     PovFeature{"refraction", "material.ior"},
     PovFeature{"total reflection of weight 1", "material.reflection material.transmission"},
-    PovFeature{"total reflection of other weight", "material.reflection material.transmission",
-               PovSupport::approximate, "POV-Ray reflects all light there, in place of reflection + transmission.",
+    PovFeature{"total reflection of other weight", "material.reflection material.transmission", PovSupport::approximate,
+               "POV-Ray reflects all light there, in place of reflection + transmission.",
                has_partial_total_reflection},
     PovFeature{"fresnel with reflection 1", "material.fresnel"},
     PovFeature{"fresnel with other reflection", "material.fresnel", PovSupport::approximate,
@@ -173,26 +215,33 @@ const std::array kFeatures = {
     PovFeature{"cubes", "cube.center cube.size cube.material cube.name"},
     PovFeature{"boxes", "box.min box.max box.material box.name"},
     PovFeature{"planes", "plane.point plane.normal plane.material plane.name"},
-    PovFeature{"meshes", "mesh.mesh mesh.material mesh.name mesh_data.positions mesh_data.indices mesh_data.name "
-                         "mesh_data.asset"},
+    PovFeature{"meshes",
+               "mesh.mesh mesh.material mesh.name mesh_data.positions mesh_data.indices mesh_data.name "
+               "mesh_data.asset"},
     PovFeature{"normals of meshes", "mesh_data.normals mesh_data.crease_deg"},
     PovFeature{"normals that look away", "mesh_data.normals mesh_data.crease_deg", PovSupport::approximate,
                "where an interpolated normal looks away from the eye and its facet does not, POV-Ray turns it round.",
                has_turned_normals},
-    PovFeature{"chess pieces", "chess_piece.piece chess_piece.position chess_piece.color chess_piece.detail "
-                               "chess_piece.material chess_piece.name"},
-    PovFeature{"chess positions", "chess_position.fen chess_position.detail chess_position.materials "
-                                  "chess_position.name chess_materials.white chess_materials.black "
-                                  "chess_materials.light chess_materials.dark chess_materials.frame"},
-    PovFeature{"scale", "sphere.scale cube.scale box.scale plane.scale mesh.scale chess_piece.scale chess_position.scale"},
-    PovFeature{"rotation", "sphere.rotate_deg sphere.rotate_quat cube.rotate_deg cube.rotate_quat box.rotate_deg "
-                           "box.rotate_quat plane.rotate_deg plane.rotate_quat mesh.rotate_deg mesh.rotate_quat "
-                           "chess_piece.rotate_deg chess_piece.rotate_quat chess_position.rotate_deg "
-                           "chess_position.rotate_quat rotation.axis rotation.angle"},
-    PovFeature{"translation", "sphere.translate cube.translate box.translate plane.translate mesh.translate "
-                              "chess_piece.translate chess_position.translate"},
-    PovFeature{"matrices", "sphere.matrix cube.matrix box.matrix plane.matrix mesh.matrix chess_piece.matrix "
-                           "chess_position.matrix"},
+    PovFeature{"chess pieces",
+               "chess_piece.piece chess_piece.position chess_piece.color chess_piece.detail "
+               "chess_piece.material chess_piece.name"},
+    PovFeature{"chess positions",
+               "chess_position.fen chess_position.detail chess_position.materials "
+               "chess_position.name chess_materials.white chess_materials.black "
+               "chess_materials.light chess_materials.dark chess_materials.frame"},
+    PovFeature{"scale",
+               "sphere.scale cube.scale box.scale plane.scale mesh.scale chess_piece.scale chess_position.scale"},
+    PovFeature{"rotation",
+               "sphere.rotate_deg sphere.rotate_quat cube.rotate_deg cube.rotate_quat box.rotate_deg "
+               "box.rotate_quat plane.rotate_deg plane.rotate_quat mesh.rotate_deg mesh.rotate_quat "
+               "chess_piece.rotate_deg chess_piece.rotate_quat chess_position.rotate_deg "
+               "chess_position.rotate_quat rotation.axis rotation.angle"},
+    PovFeature{"translation",
+               "sphere.translate cube.translate box.translate plane.translate mesh.translate "
+               "chess_piece.translate chess_position.translate"},
+    PovFeature{"matrices",
+               "sphere.matrix cube.matrix box.matrix plane.matrix mesh.matrix chess_piece.matrix "
+               "chess_position.matrix"},
     PovFeature{"details", "sphere.radius cube.size box.min box.max", PovSupport::approximate,
                "bodies ten million times smaller than the scene are lost in POV-Ray's tolerances.", has_details},
 };

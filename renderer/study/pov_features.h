@@ -31,7 +31,7 @@ struct PovFeature {
   std::string_view name;  // the note begins with it
   std::string_view keys;  // "record.key" as the grammar names them, with spaces between
   PovSupport support = PovSupport::exact;
-  std::string_view difference{};                   // empty where there is none
+  std::string_view difference{};                 // empty where there is none
   bool (*is_used)(const PovSubject&) = nullptr;  // of what is not exact
 };
 

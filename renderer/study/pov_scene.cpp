@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/base/elementary.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/compile/eye.h"
 #include "renderer/study/pov_features.h"
@@ -18,9 +19,9 @@
 namespace tilelight {
 namespace {
 
-constexpr int kMostLevels = 256;          // POV-Ray's max_trace_level goes no further
-constexpr double kFarLight = 1e6;         // of directional lights, POV-Ray's units
-constexpr double kLeastFade = 1e-4;       // fade_distance where k is 0; light comes from farther off
+constexpr int kMostLevels = 256;     // POV-Ray's max_trace_level goes no further
+constexpr double kFarLight = 1e6;    // of directional lights, POV-Ray's units
+constexpr double kLeastFade = 1e-4;  // fade_distance where k is 0; light comes from farther off
 
 // A ray that meets no change of index goes on in POV-Ray without counting as a secondary one. So what bends nothing
 // bends a millionth, each body by another one.
@@ -41,7 +42,7 @@ class Writer {
         view_(view),
         bodies_(make_bodies(scene)),
         space_(pov_space(bodies_, *view.camera)),
-        exposure_(std::exp2(view.image.exposure)),
+        exposure_(elementary::exp2(view.image.exposure)),
         textures_(scene, exposure_) {}
 
   PovScene write() {
@@ -110,7 +111,8 @@ class Writer {
     Color color = light.color * light.intensity * exposure_;
     const bool is_linear = mode == AttenuationMode::linear;
     const double fade = std::max((is_linear ? k : std::sqrt(k)) * space_.scale, kLeastFade);
-    if (mode != AttenuationMode::none) color *= 0.5 * (is_linear ? space_.scale / fade : std::pow(space_.scale / fade, 2));
+    const double near = space_.scale / fade;
+    if (mode != AttenuationMode::none) color *= 0.5 * (is_linear ? near : near * near);
     const Vec3 place = space_.point(light.position);
     text.vector(place), text.add(", "), text.color(color);
     if (mode != AttenuationMode::none) text.add(" fade_distance %.12g fade_power %d", fade, is_linear ? 1 : 2);
@@ -167,8 +169,7 @@ class Writer {
     }
     const int flat_axis = body.kind == BodyKind::plane ? 1 : 3;
     objects_.add(" texture { " + textures_.name_of(body.material, {is_solid(body), flat_axis}));
-    if (is_checkered(scene_.materials[body.material]))
-      objects_.matrix(place * glm::inverse(body.pattern_from_local));
+    if (is_checkered(scene_.materials[body.material])) objects_.matrix(place * glm::inverse(body.pattern_from_local));
     objects_.add(" }");
     end_body(body);
   }

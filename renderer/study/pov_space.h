@@ -20,9 +20,9 @@ struct PovSpace {
   Mat4 from_local(const Mat4& world_from_local) const;
 };
 
-inline constexpr double kPovSceneSize = 200.0;   // from the middle of an ordinary scene to its farthest body
-inline constexpr double kPovLeastDetail = 0.1;   // smaller bodies are lost in the tolerances
-inline constexpr double kPovFarthest = 5e6;      // what is farther off than this may not be seen
+inline constexpr double kPovSceneSize = 200.0;  // from the middle of an ordinary scene to its farthest body
+inline constexpr double kPovLeastDetail = 0.1;  // smaller bodies are lost in the tolerances
+inline constexpr double kPovFarthest = 5e6;     // what is farther off than this may not be seen
 
 PovSpace pov_space(const std::vector<Body>& bodies, const Camera& camera);
 

@@ -99,7 +99,7 @@ struct Study {
   StudyComponents components;
   std::vector<OracleRow> oracle;
   std::vector<PeerTrial> peer_trials;  // the sweep by which the peer's settings were chosen; empty without a peer
-  std::vector<std::string> notes;  // what was left out, and why
+  std::vector<std::string> notes;      // what was left out, and why
 
   std::shared_ptr<const Image> reference, picture;  // linear; the picture is the finest one of the first series
   std::vector<float> told_bounds;                   // by pixel, of the picture

@@ -254,8 +254,8 @@ int run_beside(const PeerArguments& arguments, int threads) {
                     lines.push_back(bench::compare_with_textbook(name, document, pool, arguments.rounds));
 #if TILELIGHT_WITH_EMBREE
                   if (arguments.name.empty()) continue;
-                  figures.push_back(bench::compare_with_embree(name, document, pool, arguments.rounds,
-                                                               arguments.is_robust, log));
+                  figures.push_back(
+                      bench::compare_with_embree(name, document, pool, arguments.rounds, arguments.is_robust, log));
                   lines.push_back(bench::peer_json(figures.back()));
 #endif
                 }
@@ -304,11 +304,13 @@ int main(int argc, char** argv) {
       ->check(is_bench_scenes)
       ->capture_default_str();
   app.add_flag("--robust-peer", peer.is_robust, "Embree's robust mode");
-  app.add_flag("--markdown", peer.as_markdown,
-               "The figures of --peer as the table of renderer/trace/README.md on standard output; all else on standard "
-               "error")
+  app.add_flag(
+         "--markdown", peer.as_markdown,
+         "The figures of --peer as the table of renderer/trace/README.md on standard output; all else on standard "
+         "error")
       ->needs("--peer");
-  app.add_option("--json", peer.json_path, "Also write the figures of --peer or --baseline to a file, one scene a line");
+  app.add_option("--json", peer.json_path,
+                 "Also write the figures of --peer or --baseline to a file, one scene a line");
   CLI11_PARSE(app, argc, argv);
 #if !TILELIGHT_WITH_EMBREE
   if (!peer.name.empty()) {

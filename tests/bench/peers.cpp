@@ -76,8 +76,15 @@ PeerFigures::Frame compare_frame(const Kind& kind, const ParsedScene& parsed, co
   const std::vector<double> best = best_of(modes);
   std::vector<double> their_frame;  // reckoned: our frame with their tracing in place of ours
   for (size_t i = 0; i < best.size(); ++i) their_frame.push_back(frame[i] - traced[i] + best[i]);
-  const PeerFigures::Frame out{kind.name,         ms(frame),          ms(traced), ms(sums(modes[0])), ms(sums(modes[1])),
-                               ms(sums(modes[2])), ms(best), ratio_of(their_frame, frame), ratio_of(best, traced)};
+  const PeerFigures::Frame out{kind.name,
+                               ms(frame),
+                               ms(traced),
+                               ms(sums(modes[0])),
+                               ms(sums(modes[1])),
+                               ms(sums(modes[2])),
+                               ms(best),
+                               ratio_of(their_frame, frame),
+                               ratio_of(best, traced)};
   std::fprintf(log, "%-12s %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f   %.2f (%.2f - %.2f) %.2f (%.2f - %.2f)  %.4f%%\n",
                kind.name, out.frame_ms, out.traced_ms, out.single_ms, out.packets_ms, out.stream_ms, out.best_ms,
                out.whole.middle, out.whole.least, out.whole.most, out.alone.middle, out.alone.least, out.alone.most,
@@ -97,7 +104,8 @@ PeerFigures compare_with_embree(const std::string& name, const std::string& docu
   PeerFigures out{name, plan_view(*scene, parsed.view).plan.triangles_instanced, {}};
   const EmbreeTracer embree(*scene, pool.thread_count(), robust);
   std::fprintf(
-      log, "\n%s: %lld triangles; compiled in %.0f ms, Embree's tree alone (medium, %.1f bytes a triangle) in %.0f ms\n",
+      log,
+      "\n%s: %lld triangles; compiled in %.0f ms, Embree's tree alone (medium, %.1f bytes a triangle) in %.0f ms\n",
       name.c_str(), static_cast<long long>(out.triangles), 1e3 * compile_s,
       static_cast<double>(embree.memory_bytes()) / static_cast<double>(out.triangles), embree.build_ms());
   std::fprintf(log, "%-12s %8s %8s %8s %8s %8s %8s   %-18s %-18s %s\n", "", "frame ms", "traced", "single", "packets",
@@ -135,8 +143,8 @@ std::string peer_markdown(const std::vector<PeerFigures>& scenes, int threads, i
   for (const PeerFigures& scene : scenes) out += " " + scene.scene + " |";
   out += "\n|---|";
   for (size_t i = 0; i < scenes.size(); ++i) out += "---|";
-  for (const auto& [what, ratio] : {std::pair{"tracing alone", &PeerFigures::Frame::alone},
-                                    std::pair{"whole frame", &PeerFigures::Frame::whole}}) {
+  for (const auto& [what, ratio] :
+       {std::pair{"tracing alone", &PeerFigures::Frame::alone}, std::pair{"whole frame", &PeerFigures::Frame::whole}}) {
     for (size_t row = 0; row < scenes.front().frames.size(); ++row) {
       out += "\n| " + scenes.front().frames[row].name + ", " + what + " |";
       for (const PeerFigures& scene : scenes) {

@@ -27,7 +27,8 @@ std::string ball(const std::string& material) {
 std::string pane(const std::string& normals, const std::string& rest = "") {
   return on_plane(R"({"type": "mesh", "mesh": "pane", "material": {"diffuse": 0.8, "specular": 0.4, "shininess": 8}})",
                   R"("meshes": {"pane": {"positions": [-1.2,0.2,0, 1.2,0.2,0, 1.2,2,0, -1.2,2,0],
-                      "indices": [0,1,2, 0,2,3], "normals": [)" + normals + "]" + rest + "}}");
+                      "indices": [0,1,2, 0,2,3], "normals": [)" +
+                      normals + "]" + rest + "}}");
 }
 constexpr const char* kCheckered = R"({"diffuse": {"checker": {"a": 0.9, "b": 0.2, "size": 0.5}}})";
 constexpr const char* kGlass =
@@ -44,11 +45,11 @@ std::vector<PovCase> of_the_view() {
            "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 40}]})"},
       {"perspective camera", "a wide field, tilted",
        R"({"camera": {"position": [1, 3, 3], "up": [0.4, 1, 0], "fov_y_deg": 90}})"},
-      {"perspective camera", "an up vector along the view", R"({"camera": {"position": [0, 5, 0], "target": [0, 1, 0]}})"},
+      {"perspective camera", "an up vector along the view",
+       R"({"camera": {"position": [0, 5, 0], "target": [0, 1, 0]}})"},
       {"orthographic camera", "parallel rays",
        R"({"camera": {"type": "orthographic", "fov_y_deg": null, "height": 4}})"},
-      {"eye far from the scene", "a telescope",
-       R"({"camera": {"position": [2e6, 2e6, 5e6], "fov_y_deg": 4e-5}})"},
+      {"eye far from the scene", "a telescope", R"({"camera": {"position": [2e6, 2e6, 5e6], "fov_y_deg": 4e-5}})"},
       {"ray tracing", "by name", R"({"render": {"algorithm": "raytrace"}})"},
       {"other algorithms than raytrace", "a depth buffer",
        R"({"render": {"algorithm": "zbuffer"}, "objects": [{"type": "plane"}, {"type": "cube", "center": [0, 1, 0]}]})"},
@@ -96,7 +97,8 @@ std::vector<PovCase> of_light() {
           "objects": [{"type": "sphere", "center": [0, 1, 0], "material": {"diffuse": 0.1, "reflection": 0.8}}]})"},
       {"ambient light", "of a colour", R"({"ambient": [0.3, 0.2, 0.1]})"},
       {"ambient light", "without diffuse reflection", ball(R"({"diffuse": 0, "ambient": [0.9, 0.4, 0]})")},
-      {"ambient light", "in one channel that reflects nothing", ball(R"({"diffuse": [0.5, 0, 0], "ambient": [0.9, 0.8, 0]})")},
+      {"ambient light", "in one channel that reflects nothing",
+       ball(R"({"diffuse": [0.5, 0, 0], "ambient": [0.9, 0.8, 0]})")},
       {"ambient light", "of another checker than the diffuse one",
        R"({"camera": {"position": [2, 5, 3]}, "ambient": 0.4, "objects": [{"type": "plane", "material": {
            "diffuse": {"checker": {"a": 0.8, "b": 0.1, "size": 1}}, "ambient": {"checker": {"a": 0, "b": 1, "size": 0.7}}}}]})"},
@@ -137,24 +139,30 @@ std::vector<PovCase> of_light() {
 std::vector<PovCase> of_materials() {
   return {
       {"diffuse reflection", "black and colours", ball(R"({"diffuse": [0.9, 0, 0.3]})")},
-      {"checkers", "on a plane", R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "material": )" + std::string(kCheckered) + "}]}"},
+      {"checkers", "on a plane",
+       R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "material": )" + std::string(kCheckered) +
+           "}]}"},
       {"checkers", "on a tilted plane through the origin of cells",
-       R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "normal": [0.2, 1, 0.1], "material": )" + std::string(kCheckered) + "}]}"},
+       R"({"camera": {"position": [2, 5, 3]}, "objects": [{"type": "plane", "normal": [0.2, 1, 0.1], "material": )" +
+           std::string(kCheckered) + "}]}"},
       {"checkers", "on a ball", ball(kCheckered)},
       {"checkers", "on a box whose faces end at cells",
-       on_plane(R"({"type": "box", "min": [-1, 0, -1], "max": [1, 2, 1], "material": )" + std::string(kCheckered) + "}")},
+       on_plane(R"({"type": "box", "min": [-1, 0, -1], "max": [1, 2, 1], "material": )" + std::string(kCheckered) +
+                "}")},
       {"checkers", "on a turned box of uneven sides",
-       on_plane(R"({"type": "box", "min": [-1, 0.3, -0.7], "max": [0.9, 2, 1], "material": )" + std::string(kCheckered) +
-                ", " + kTurned + "}")},
+       on_plane(R"({"type": "box", "min": [-1, 0.3, -0.7], "max": [0.9, 2, 1], "material": )" +
+                std::string(kCheckered) + ", " + kTurned + "}")},
       {"checkers", "on a mesh",
-       on_plane(R"({"type": "mesh", "mesh": "tetra", "scale": 2.5, "translate": [-1, 0, -1], "material": )" +
-                    std::string(kCheckered) + "}",
-                R"("meshes": {"tetra": {"positions": [0,0,0, 1,0,0, 0,1,0, 0,0,1], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3]}})")},
+       on_plane(
+           R"({"type": "mesh", "mesh": "tetra", "scale": 2.5, "translate": [-1, 0, -1], "material": )" +
+               std::string(kCheckered) + "}",
+           R"("meshes": {"tetra": {"positions": [0,0,0, 1,0,0, 0,1,0, 0,0,1], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3]}})")},
       {"checkers", "that glow beside what they reflect",
        ball(R"({"diffuse": {"checker": {"a": [0.9, 0, 0], "b": 0.2, "size": 0.5}}, "ambient": 0.7})")},
       {"grey highlights", "sharp", ball(R"({"diffuse": 0.2, "specular": 0.8, "shininess": 300})")},
       {"grey highlights", "of shininess 0", ball(R"({"diffuse": 0.2, "specular": 0.5, "shininess": 0})")},
-      {"coloured highlights", "of gold", ball(R"({"diffuse": [0.3, 0.2, 0.1], "specular": [0.9, 0.6, 0.2], "shininess": 9})")},
+      {"coloured highlights", "of gold",
+       ball(R"({"diffuse": [0.3, 0.2, 0.1], "specular": [0.9, 0.6, 0.2], "shininess": 9})")},
       {"mirrors", "coloured", ball(R"({"diffuse": 0.1, "reflection": [0.9, 0.6, 0.2]})")},
       {"transmission", "a tinted pane, and its shadow",
        on_plane(R"({"type": "box", "min": [-1, 0.2, 0.5], "max": [1, 2, 0.5], "material":
@@ -170,19 +178,23 @@ std::vector<PovCase> of_materials() {
        ball(R"({"diffuse": 0, "reflection": [0.1, 0.2, 0.4], "transmission": [0.9, 0.8, 0.6], "ior": 1.5})")},
       {"refraction", "a block of water, turned",
        on_plane(R"({"type": "box", "min": [-0.8, 0.6, -0.8], "max": [0.8, 2, 0.8], "material":
-                    {"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "ior": 1.33}, )" + std::string(kTurned) + "}")},
+                    {"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "ior": 1.33}, )" +
+                std::string(kTurned) + "}")},
       {"refraction", "glass that also reflects and shines",
-       ball(R"({"diffuse": [0.2, 0.1, 0], "specular": 0.5, "shininess": 100, "reflection": 0.3, "transmission": 0.7})")},
+       ball(
+           R"({"diffuse": [0.2, 0.1, 0], "specular": 0.5, "shininess": 100, "reflection": 0.3, "transmission": 0.7})")},
       {"refraction", "seen from inside",
        R"({"camera": {"position": [0.5, 1.1, 0.6], "target": [0, 0.8, 0], "fov_y_deg": 70},
            "objects": [{"type": "plane"}, {"type": "cube", "center": [-2, 0, -1], "size": 1.5},
            {"type": "sphere", "center": [0, 1.2, 0], "material": {"diffuse": 0, "reflection": 0.2, "transmission": 0.8}}]})"},
       {"total reflection of weight 1", "a prism",
        on_plane(R"({"type": "cube", "center": [0, 1.2, 0], "size": 1.4, "material":
-                    {"diffuse": 0, "reflection": 0, "transmission": 1, "ior": 1.6}, )" + std::string(kTurned) + "}")},
+                    {"diffuse": 0, "reflection": 0, "transmission": 1, "ior": 1.6}, )" +
+                std::string(kTurned) + "}")},
       {"total reflection of other weight", "dark glass",
        on_plane(R"({"type": "cube", "center": [0, 1.2, 0], "size": 1.4, "material":
-                    {"diffuse": 0, "reflection": 0, "transmission": 0.6}, )" + std::string(kTurned) + "}")},
+                    {"diffuse": 0, "reflection": 0, "transmission": 0.6}, )" +
+                std::string(kTurned) + "}")},
       {"fresnel with reflection 1", "amber", ball(kGlass)},
       {"fresnel with reflection 1", "a block",
        on_plane(R"({"type": "cube", "center": [0, 1.2, 0], "size": 1.4, "material": )" + std::string(kGlass) + ", " +
@@ -197,15 +209,15 @@ std::vector<PovCase> of_materials() {
       {"media apart", "water within glass",
        ball(R"({"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "ior": 1.5}}, {"type": "sphere",
                 "center": [0.1, 1, 0], "radius": 0.8, "material": {"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "ior": 1.33})")},
-      {"media that meet", "balls that overlap",
-       on_plane(R"({"type": "sphere", "center": [-0.5, 1, 0], "material":
+      {"media that meet", "balls that overlap", on_plane(R"({"type": "sphere", "center": [-0.5, 1, 0], "material":
                     {"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "priority": 3}},
                    {"type": "sphere", "center": [0.5, 1, 0], "material":
                     {"diffuse": 0, "reflection": 0.1, "transmission": 0.9, "priority": 1}})")},
       {"media that meet", "a cube of glass on the floor",
        on_plane(R"({"type": "cube", "center": [0, 0.5, 0], "material":
                     {"diffuse": 0, "reflection": 0.1, "transmission": 0.9}})")},
-      {"media that meet", "a bubble with fresnel", ball(std::string(kGlass) + R"(}, {"type": "sphere", "center": [0, 1, 0],
+      {"media that meet", "a bubble with fresnel",
+       ball(std::string(kGlass) + R"(}, {"type": "sphere", "center": [0, 1, 0],
            "radius": 0.5, "material": {"diffuse": 0, "reflection": 1, "transmission": 1, "ior": 1, "priority": 1, "fresnel": true})")},
   };
 }
@@ -214,22 +226,28 @@ std::vector<PovCase> of_objects() {
   return {
       {"spheres", "two that overlap", R"({"objects": [{"type": "plane"}, {"type": "sphere", "center": [-0.4, 1, 0]},
           {"type": "sphere", "center": [0.7, 0.8, 0.3], "radius": 0.8}]})"},
-      {"spheres", "an ellipsoid, turned", on_plane(R"({"type": "sphere", "center": [0, 1.2, 0], "scale": [1.5, 0.7, 1],
-          "material": {"diffuse": 0.5, "specular": 0.5, "reflection": 0.3}, )" + std::string(kTurned) + "}")},
+      {"spheres", "an ellipsoid, turned",
+       on_plane(R"({"type": "sphere", "center": [0, 1.2, 0], "scale": [1.5, 0.7, 1],
+          "material": {"diffuse": 0.5, "specular": 0.5, "reflection": 0.3}, )" +
+                std::string(kTurned) + "}")},
       {"cubes", "upright", on_plane(R"({"type": "cube", "center": [0, 1, 0], "size": 1.5})")},
       {"boxes", "upright and mirroring",
        on_plane(R"({"type": "box", "min": [-1, 0.2, -0.5], "max": [0.8, 1.5, 1], "material": {"reflection": 0.4}})")},
       {"boxes", "flat", on_plane(R"({"type": "box", "min": [-1, 0.7, -0.5], "max": [0.8, 0.7, 1]})")},
       {"boxes", "uneven and turned",
        on_plane(R"({"type": "box", "min": [-1, 0.2, -0.5], "max": [0.8, 1.5, 1], )" + std::string(kTurned) + "}")},
-      {"planes", "a tilted one through another", on_plane(R"({"type": "plane", "point": [0, 0, -2], "normal": [0.3, 0.5, 1]})")},
-      {"planes", "of a tiny normal", R"({"objects": [{"type": "plane", "normal": [0, 1e-170, 0]}, {"type": "cube", "center": [0, 0.5, 0]}]})"},
+      {"planes", "a tilted one through another",
+       on_plane(R"({"type": "plane", "point": [0, 0, -2], "normal": [0.3, 0.5, 1]})")},
+      {"planes", "of a tiny normal",
+       R"({"objects": [{"type": "plane", "normal": [0, 1e-170, 0]}, {"type": "cube", "center": [0, 0.5, 0]}]})"},
       {"meshes", "faceted",
-       on_plane(R"({"type": "mesh", "mesh": "tetra", "scale": 2, "translate": [-0.5, 0, 0], "material": {"specular": 0.4}})",
-                R"("meshes": {"tetra": {"positions": [0,0,0, 1,0,0, 0,1,0, 0,0,1], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3], "crease_deg": 10}})")},
+       on_plane(
+           R"({"type": "mesh", "mesh": "tetra", "scale": 2, "translate": [-0.5, 0, 0], "material": {"specular": 0.4}})",
+           R"("meshes": {"tetra": {"positions": [0,0,0, 1,0,0, 0,1,0, 0,0,1], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3], "crease_deg": 10}})")},
       {"meshes", "of tiny coordinates, placed by a matrix",
-       on_plane(R"({"type": "mesh", "mesh": "tetra", "matrix": [2e6,0,0,0, 0,2e6,0,0, 0,0,2e6,0, -0.5,0,0,1]})",
-                R"("meshes": {"tetra": {"positions": [0,0,0, 1e-6,0,0, 0,1e-6,0, 0,0,1e-6], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3]}})")},
+       on_plane(
+           R"({"type": "mesh", "mesh": "tetra", "matrix": [2e6,0,0,0, 0,2e6,0,0, 0,0,2e6,0, -0.5,0,0,1]})",
+           R"("meshes": {"tetra": {"positions": [0,0,0, 1e-6,0,0, 0,1e-6,0, 0,0,1e-6], "indices": [0,2,1, 0,1,3, 0,3,2, 1,2,3]}})")},
       {"normals of meshes", "all three alike", pane("0.5,0.3,0.8, 0.5,0.3,0.8, 0.5,0.3,0.8, 0.5,0.3,0.8")},
       {"normals of meshes", "two of three alike", pane("0,0,1, 0,0,1, 0.7,0,0.7, 0.7,0,0.7")},
       {"normals of meshes", "all different", pane("-0.5,-0.3,1, 0.5,-0.3,1, 0.5,0.4,1, -0.5,0.4,1")},
@@ -241,6 +259,19 @@ std::vector<PovCase> of_objects() {
        R"({"render": {"terminator": "smooth"}, "camera": {"position": [1, 2, 4]}, "objects": [{"type": "chess_piece", "piece": "pawn", "detail": 8}]})"},
       {"exact terminator", "on a mesh with interpolated normals",
        R"({"camera": {"position": [1, 2, 4]}, "objects": [{"type": "plane"}, {"type": "chess_piece", "piece": "pawn", "detail": 32}]})"},
+      {"exact terminator where nothing shades", "a pawn of few facets under a light without shadow",
+       R"({"camera": {"position": [1, 2, 4]},
+           "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 5, "shadow": false}],
+           "objects": [{"type": "plane"}, {"type": "chess_piece", "piece": "pawn", "detail": 16}]})"},
+      {"exact terminator where nothing shades", "a pane in slanting light, with normals that lean to it",
+       R"({"lights": [{"type": "point", "position": [5, 1, -1], "intensity": 5}], "objects": [
+           {"type": "mesh", "mesh": "pane", "material": {"diffuse": 0.8}}], "meshes": {"pane": {
+           "positions": [-1.2,0.2,0, 1.2,0.2,0, 1.2,2,0, -1.2,2,0], "indices": [0,1,2, 0,2,3],
+           "normals": [0.6,0,0.8, 0.7,0,0.7, 0.7,0,0.7, 0.6,0,0.8]}}})"},
+      {"lights without shadow", "on a smooth mesh with the smooth terminator",
+       R"({"render": {"terminator": "smooth"}, "camera": {"position": [1, 2, 4]},
+           "lights": [{"type": "point", "position": [3, 5, 4], "intensity": 5, "shadow": false}],
+           "objects": [{"type": "plane"}, {"type": "chess_piece", "piece": "pawn", "detail": 32}]})"},
       {"chess pieces", "a black knight",
        R"({"camera": {"position": [2, 2, 3]}, "objects": [{"type": "plane"},
            {"type": "chess_piece", "piece": "knight", "color": "black", "detail": 32}]})"},
@@ -251,7 +282,8 @@ std::vector<PovCase> of_objects() {
                         "materials": {"white": {"diffuse": 0.8, "specular": 0.3}, "frame": )" +
            std::string(kCheckered) + "}}]}"},
       {"matrices", "a reflection with shear",
-       on_plane(R"({"type": "cube", "center": [0, 0, 0], "matrix": [-1.2,0,0,0, 0.4,1,0,0, 0,0.2,0.9,0, 0,1,0,1], "material": {"specular": 0.3}})")},
+       on_plane(
+           R"({"type": "cube", "center": [0, 0, 0], "matrix": [-1.2,0,0,0, 0.4,1,0,0, 0,0.2,0.9,0, 0,1,0,1], "material": {"specular": 0.3}})")},
       {"rotation", "of a mirrored mesh of uneven scale",
        R"({"camera": {"position": [2, 2, 3]}, "objects": [{"type": "plane"},
            {"type": "chess_piece", "piece": "knight", "detail": 32, "scale": [-1.5, 1, 0.7], "rotate_quat": [0, 0.4, 0, 1]}]})"},

@@ -95,9 +95,8 @@ TEST(NotesOnPovRay, NameWhatItDrawsOtherwiseAndNothingElse) {
       EXPECT_TRUE(notes.empty()) << test.feature << ", " << test.what << ": " << notes.front();
       continue;
     }
-    const bool is_named = std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
-      return note.starts_with(test.feature + ": ");
-    });
+    const bool is_named = std::any_of(notes.begin(), notes.end(),
+                                      [&](const std::string& note) { return note.starts_with(test.feature + ": "); });
     EXPECT_TRUE(is_named) << test.feature << ", " << test.what << ": " << notes.size() << " notes";
   }
 }
