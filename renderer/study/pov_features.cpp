@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/base/elementary.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/study/pov_media.h"
 #include "renderer/study/pov_mesh.h"
@@ -50,17 +51,37 @@ bool has_partial_fresnel(const Subject& s) {
   return any_medium(s, [](const Material& m) { return m.fresnel && m.ior != 1.0 && m.reflection != Color(1.0); });
 }
 
-bool is_rounded_by_light(const Subject& s) {
+bool casts_shadow(const Subject& s, const Light& light) { return light.shadow && s.view.render.shadows; }
+
+bool is_rounded_by_shadows(const Subject& s) {
   if (s.view.render.terminator != Terminator::smooth) return false;
-  return !s.scene.lights.empty() &&
+  const auto& lights = s.scene.lights;
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) { return casts_shadow(s, light); }) &&
          any_body(s, [](const Body& body) { return body.mesh && !body.mesh->corner_normals.empty(); });
+}
+
+// A facet that faces away from a light lies in its own shadow; in POV-Ray only if the light casts shadows and the mesh
+// is closed.
+bool is_lit_behind_facets(const Subject& s) {
+  if (s.view.render.terminator != Terminator::exact) return false;
+  bool found = false;
+  for (const Body& body : s.bodies) {
+    for_each_smooth_corner(body, [&](const Vec3& place, const Vec3& facet, const Vec3& normal) {
+      for (const Light& light : s.scene.lights) {
+        if (casts_shadow(s, light) && body.mesh->closed) continue;
+        const Vec3 way = light.kind == LightKind::point ? light.position - place : -light.direction;
+        found = found || glm::dot(facet, way) * glm::dot(normal, way) < 0.0;
+      }
+    });
+  }
+  return found;
 }
 
 // More rays than the budget can come from one sample.
 bool may_spend_budget(const Subject& s) {
   const RenderSpec& render = s.view.render;
   const bool branches = any_material(s, [](const Material& m) { return is_clear(m) && m.reflection != Color(0.0); });
-  const double most = branches ? std::exp2(render.max_depth + 1.0) : render.max_depth + 1.0;
+  const double most = branches ? elementary::exp2(render.max_depth + 1.0) : render.max_depth + 1.0;
   const bool follows = any_material(s, [](const Material& m) { return is_clear(m) || m.reflection != Color(0.0); });
   return follows && most > render.ray_budget;
 }
@@ -70,10 +91,25 @@ bool follows_rays(const Subject& s) {
 }
 
 // POV-Ray turns a normal to the eye, we to the side of the facet that is seen: where an interpolated normal looks away
-// from the eye and the facet does not, these are two. On fine meshes that is a rim of no width.
+// from the eye and the facet does not, these are two. Counts corners whose normal is far from their facet's, by how
+// large the eye sees them: where the two are near, that is a rim of no width.
 bool has_turned_normals(const Subject& s) {
-  return !s.scene.lights.empty() &&
-         any_body(s, [&](const Body& body) { return body.mesh && shows_turned_normals(body, *s.view.camera); });
+  constexpr double kNear = 0.8;    // cosine
+  constexpr double kShows = 5e-3;  // of a body's picture
+  const Camera& camera = *s.view.camera;
+  if (s.scene.lights.empty()) return false;
+  return any_body(s, [&](const Body& body) {
+    double all = 0.0, turned = 0.0;
+    for_each_smooth_corner(body, [&](const Vec3& place, const Vec3& facet, const Vec3& normal) {
+      const bool is_parallel = camera.projection == Projection::orthographic;
+      const Vec3 to_eye = safe_normalize(camera.position - (is_parallel ? camera.target : place));
+      const double seen = glm::dot(facet, to_eye);
+      all += std::abs(seen);
+      const bool is_far = glm::dot(facet, normal) < kNear * glm::length(facet) * glm::length(normal);
+      if (is_far && seen * glm::dot(normal, to_eye) < 0.0) turned += std::abs(seen);
+    });
+    return turned > kShows * all;
+  });
 }
 
 bool has_details(const Subject& s) {
@@ -126,7 +162,12 @@ const std::array kFeatures = {
                "POV-Ray has none and traces all rays that depth and weight allow.", may_spend_budget},
     PovFeature{"exact terminator", "render.terminator"},
     PovFeature{"smooth terminator", "render.terminator", PovSupport::approximate,
-               "on meshes with interpolated normals light ends facet by facet in POV-Ray.", is_rounded_by_light},
+               "on meshes with interpolated normals light ends facet by facet in POV-Ray.", is_rounded_by_shadows},
+    PovFeature{
+        "exact terminator where nothing shades", "render.terminator", PovSupport::approximate,
+        "facets that face away from a light have its light in POV-Ray by their normals, if it casts no shadow or "
+        "their mesh is open.",
+        is_lit_behind_facets},
     PovFeature{"box filter", "render.filter"},
     PovFeature{"tent filter", "render.filter", PovSupport::missing, "POV-Ray weighs the square of a pixel alike.",
                [](const Subject& s) { return s.view.render.filter == PixelFilter::tent; }},
@@ -202,7 +243,7 @@ const std::array kFeatures = {
                "sphere.matrix cube.matrix box.matrix plane.matrix mesh.matrix chess_piece.matrix "
                "chess_position.matrix"},
     PovFeature{"details", "sphere.radius cube.size box.min box.max", PovSupport::approximate,
-               "bodies of less than a ten-thousandth of POV-Ray's reach are lost in its tolerances.", has_details},
+               "bodies ten million times smaller than the scene are lost in POV-Ray's tolerances.", has_details},
 };
 
 }  // namespace

@@ -33,25 +33,19 @@ void add_normals(PovText& text, const TriMesh& mesh) {
 
 }  // namespace
 
-bool shows_turned_normals(const Body& body, const Camera& camera) {
-  constexpr double kFar = 0.8;  // cosine
+void for_each_smooth_corner(const Body& body, const PovCorner& visit) {
+  if (body.kind != BodyKind::mesh) return;
   const TriMesh& mesh = *body.mesh;
-  const Mat3 linear(body.world_from_local);
-  const Mat3 of_normals = glm::transpose(glm::inverse(linear));
+  const Mat3 of_normals = glm::transpose(glm::inverse(Mat3(body.world_from_local)));
   for (size_t t = 0; t < mesh.corner_normals.size(); ++t) {
-    const auto place = [&](int corner) { return mesh.positions[mesh.triangles[t][static_cast<size_t>(corner)]]; };
-    const Vec3 facet = safe_normalize(cross_of(place(1) - place(0), place(2) - place(0)));
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec3& normal = mesh.corner_normals[t][static_cast<size_t>(corner)];
-      if (std::abs(glm::dot(facet, normal)) > kFar) continue;
-      const Vec3 world = Vec3(body.world_from_local * Vec4(place(corner), 1.0));
-      const bool is_parallel = camera.projection == Projection::orthographic;
-      const Vec3 to_eye = is_parallel ? camera.position - camera.target : camera.position - world;
+    const auto place = [&](size_t corner) { return mesh.positions[mesh.triangles[t][corner]]; };
+    const Vec3 facet = glm::cross(place(1) - place(0), place(2) - place(0));
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const Vec3& normal = mesh.corner_normals[t][corner];
       const double side = glm::dot(facet, normal) < 0.0 ? -1.0 : 1.0;
-      if (side * glm::dot(of_normals * facet, to_eye) * glm::dot(of_normals * normal, to_eye) < 0.0) return true;
+      visit(Vec3(body.world_from_local * Vec4(place(corner), 1.0)), of_normals * facet, of_normals * (side * normal));
     }
   }
-  return false;
 }
 
 PovMeshSpace pov_mesh_space(const TriMesh& mesh, double size) {

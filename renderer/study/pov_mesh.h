@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -27,8 +28,10 @@ std::string pov_mesh(const TriMesh& mesh, const PovMeshSpace& space, const std::
 // The axis that a checker leaves out on a triangle: the dominant one of its normal.
 int dominant_axis(const TriMesh& mesh, size_t triangle);
 
-// Whether the camera sees a facet whose normal at a corner looks away from it, and far from the facet's own.
-bool shows_turned_normals(const Body& body, const Camera& camera);
+// Calls visit for every corner of a body's triangles that have interpolated normals, in the world. facet: as long as
+// the triangle is large; normal: of the corner, of any length, on the facet's side.
+using PovCorner = std::function<void(const Vec3& place, const Vec3& facet, const Vec3& normal)>;
+void for_each_smooth_corner(const Body& body, const PovCorner& visit);
 
 // A box about the origin, flat faces. Faces of a box without thickness stand once.
 TriMesh box_mesh(const Vec3& half);

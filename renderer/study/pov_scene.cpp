@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/base/elementary.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/compile/eye.h"
 #include "renderer/study/pov_features.h"
@@ -41,7 +42,7 @@ class Writer {
         view_(view),
         bodies_(make_bodies(scene)),
         space_(pov_space(bodies_, *view.camera)),
-        exposure_(std::exp2(view.image.exposure)),
+        exposure_(elementary::exp2(view.image.exposure)),
         textures_(scene, exposure_) {}
 
   PovScene write() {
@@ -110,8 +111,8 @@ class Writer {
     Color color = light.color * light.intensity * exposure_;
     const bool is_linear = mode == AttenuationMode::linear;
     const double fade = std::max((is_linear ? k : std::sqrt(k)) * space_.scale, kLeastFade);
-    if (mode != AttenuationMode::none)
-      color *= 0.5 * (is_linear ? space_.scale / fade : std::pow(space_.scale / fade, 2));
+    const double near = space_.scale / fade;
+    if (mode != AttenuationMode::none) color *= 0.5 * (is_linear ? near : near * near);
     const Vec3 place = space_.point(light.position);
     text.vector(place), text.add(", "), text.color(color);
     if (mode != AttenuationMode::none) text.add(" fade_distance %.12g fade_power %d", fade, is_linear ? 1 : 2);

@@ -60,18 +60,19 @@ class Peer {
     if (povray_.draw(setting).cpu_ms < boxes_ms) bounding_ = 2;
   }
 
-  // Deeper as long as that helps. Jitter only where the same without was worth while.
+  // Deeper as long as that helps and no other setting needs half the time for it. Jitter only where the same without
+  // was worth while.
   void sweep() {
     try_once({.bounding = bounding_});
-    constexpr double kHelps = 0.97;
-    for (const int method : {1, 2}) {
+    for (const int method : {2, 1}) {
       for (const double threshold : {0.3, 0.1, 0.03, 0.01, 0.003, 0.0}) {
         double last = INFINITY;
         for (const int depth : method == 1 ? std::vector{2, 3, 4, 6, kPovMostDepth} : std::vector{1, 2, 3, 4, 5}) {
           if (method == 2 && threshold == 0.0 && depth > 3) break;  // all of a grid of 16 x 16
-          const double rmse = try_once({method, threshold, depth, false, bounding_}).rmse;
-          if (rmse > kHelps * last) break;
-          last = rmse;
+          constexpr double kHelps = 0.97;
+          const Trial& trial = try_once({method, threshold, depth, false, bounding_});
+          if (trial.rmse > kHelps * last || is_hopeless(trial)) break;
+          last = trial.rmse;
         }
       }
     }
@@ -85,26 +86,22 @@ class Peer {
     }
   }
 
-  void mark_front() {
-    std::vector<Sample> samples;
-    for (const Trial& trial : trials_) samples.push_back({trial.drawing.cpu_ms, trial.rmse});
-    is_on_front_ = pareto_front(samples);
+  bool is_hopeless(const Trial& trial) const {
+    return std::any_of(trials_.begin(), trials_.end(), [&](const Trial& other) {
+      return other.rmse <= trial.rmse && 2.0 * other.drawing.cpu_ms < trial.drawing.cpu_ms;
+    });
   }
 
-  // For errors that fall by the square root of two, the cheapest setting that reaches each.
+  std::vector<Sample> samples() const {
+    std::vector<Sample> out;
+    for (const Trial& trial : trials_) out.push_back({trial.drawing.cpu_ms, trial.rmse});
+    return out;
+  }
+  void mark_front() { is_on_front_ = pareto_front(samples()); }
+
   std::vector<PovSetting> chosen() const {
-    std::vector<const Trial*> front;
-    for (size_t i = 0; i < trials_.size(); ++i)
-      if (is_on_front_[i]) front.push_back(&trials_[i]);
-    std::sort(front.begin(), front.end(),
-              [](const Trial* a, const Trial* b) { return a->drawing.cpu_ms < b->drawing.cpu_ms; });
     std::vector<PovSetting> out;
-    double level = INFINITY;
-    for (const Trial* trial : front) {
-      if (trial->rmse > level && trial != front.back()) continue;
-      out.push_back(trial->setting);
-      level = trial->rmse / std::sqrt(2.0);
-    }
+    for (const size_t i : steps_of_front(samples(), std::sqrt(2.0))) out.push_back(trials_[i].setting);
     return out;
   }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "renderer/base/elementary.h"
 #include "renderer/film/image_io.h"
 
 namespace tilelight::study {
@@ -29,7 +30,7 @@ Image read_linear(const std::string& path, double exposure) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   auto image = decode_linear(bytes, ImageFormat::png, int64_t{1} << 26);
   if (!image) throw std::runtime_error("POV-Ray's image: " + image.error().detail);
-  const double dimmed = std::exp2(-exposure);
+  const double dimmed = elementary::exp2(-exposure);
   for (float& v : image->rgb) v = static_cast<float>(v * dimmed);
   return std::move(*image);
 }

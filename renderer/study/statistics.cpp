@@ -73,4 +73,19 @@ std::vector<bool> pareto_front(const std::vector<Sample>& samples) {
   return out;
 }
 
+std::vector<size_t> steps_of_front(const std::vector<Sample>& samples, double factor) {
+  const std::vector<bool> is_on_front = pareto_front(samples);
+  std::vector<size_t> front, out;
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (is_on_front[i]) front.push_back(i);
+  std::sort(front.begin(), front.end(), [&](size_t a, size_t b) { return samples[a].x < samples[b].x; });
+  double wanted = INFINITY;
+  for (const size_t i : front) {
+    if (samples[i].y > wanted && i != front.back()) continue;
+    out.push_back(i);
+    wanted = samples[i].y / factor;
+  }
+  return out;
+}
+
 }  // namespace tilelight

@@ -26,4 +26,8 @@ std::optional<double> on_curve(const std::vector<Sample>& curve, double x);
 // Which samples no other one beats in both x and y, less being better.
 std::vector<bool> pareto_front(const std::vector<Sample>& samples);
 
+// Places of samples, by rising x: the least x; from there on, each time that y has fallen by the factor, the least x
+// that has it so low; at last the least y.
+std::vector<size_t> steps_of_front(const std::vector<Sample>& samples, double factor);
+
 }  // namespace tilelight

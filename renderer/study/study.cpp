@@ -46,6 +46,9 @@ class Maker {
     study_.width = view_.image.width, study_.height = view_.image.height;
     study_.exposure = view_.image.exposure;
     study_.rounds = studio.options().rounds;
+    // Whatever the scene asks for: the reference has the whole light model, and every method is set beside it.
+    view_.render.algorithm = Algorithm::raytrace, view_.render.shading = Shading::phong;
+    asked_ = parsed.view.render;
   }
 
   Study make() {
@@ -84,7 +87,9 @@ class Maker {
     study_.oracle = ask_oracle(studio_, compiled_, view_, *study_.reference, study_.series.front());
     if (studio_.options().with_povray) {
       studio_.tell("POV-Ray", 0.9);
-      add_povray(studio_, scene_, view_, *study_.reference, study_);
+      View asked = view_;
+      asked.render.algorithm = asked_.algorithm, asked.render.shading = asked_.shading;
+      add_povray(studio_, scene_, asked, *study_.reference, study_);
     }
     take_components(all);
     mark_front();
@@ -258,6 +263,7 @@ class Maker {
   const Studio& studio_;
   const Scene& scene_;
   View view_;
+  RenderSpec asked_;  // by the scene
   std::shared_ptr<const CompiledScene> compiled_;
   Study study_;
 };

@@ -24,6 +24,8 @@
 #include "tests/bench/timing.h"
 #include "tests/bench/waves.h"
 #if TILELIGHT_WITH_EMBREE
+#include "tests/bench/embree_rays.h"
+#include "tests/bench/machine.h"
 #include "tests/bench/peers.h"
 #endif
 
@@ -226,10 +228,63 @@ int run(const std::string& path, int rounds, int threads, bool robustness) {
   return 0;
 }
 
+struct PeerArguments {
+  std::string name, scenes = "sml", json_path;  // name: empty beside the textbook
+  int rounds = 5;
+  bool is_robust = false, as_markdown = false;
+};
+
+// The bench scenes, by another tracer too. From a thread of the pool, so that a loop over tiles has no more threads
+// than that.
+int run_beside(const PeerArguments& arguments, int threads) {
+  TilePool pool(threads);
+  std::vector<std::string> lines;  // JSON, one a scene
+  std::string markdown;
+  pool.submit(Priority::normal,
+              [&] {
+#if TILELIGHT_WITH_EMBREE
+                std::FILE* const log = arguments.as_markdown ? stderr : stdout;
+                std::vector<bench::PeerFigures> figures;
+                if (!arguments.name.empty())
+                  std::fprintf(log, "%s, %s\n", bench::machine_name().c_str(), bench::embree_build().c_str());
+#endif
+                for (const char size : arguments.scenes) {
+                  const std::string name(1, size), document = bench::bench_scene(bench::detail_of(size));
+                  if (arguments.name.empty())
+                    lines.push_back(bench::compare_with_textbook(name, document, pool, arguments.rounds));
+#if TILELIGHT_WITH_EMBREE
+                  if (arguments.name.empty()) continue;
+                  figures.push_back(
+                      bench::compare_with_embree(name, document, pool, arguments.rounds, arguments.is_robust, log));
+                  lines.push_back(bench::peer_json(figures.back()));
+#endif
+                }
+#if TILELIGHT_WITH_EMBREE
+                if (arguments.as_markdown)
+                  markdown = bench::peer_markdown(figures, pool.thread_count(), arguments.rounds, arguments.is_robust);
+#endif
+              })
+      .get();
+  std::fputs(markdown.c_str(), stdout);
+  if (arguments.json_path.empty()) return 0;
+  std::ofstream json(arguments.json_path);
+  for (const std::string& line : lines) json << line << "\n";
+  if (json.flush()) return 0;
+  std::fprintf(stderr, "bench_rays: cannot write %s\n", arguments.json_path.c_str());
+  return 1;
+}
+
+// For the command line: empty if every letter is a scene.
+std::string is_bench_scenes(const std::string& scenes) {
+  const bool is_known = !scenes.empty() && scenes.find_first_not_of("sml") == std::string::npos;
+  return is_known ? "" : "found '" + scenes + "'; allowed: letters of s, m, l";
+}
+
 }  // namespace
 }  // namespace tilelight
 
 int main(int argc, char** argv) {
+  using namespace tilelight;
   CLI::App app{"Rays a second of the fast renderer, and where the time of a request goes"};
   std::string path = TILELIGHT_SOURCE_DIR "/web/scenes/opening.json";
   int rounds = 5, threads = 0;
@@ -238,48 +293,32 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "Threads; 0: one a core")->check(CLI::Range(0, 1024))->capture_default_str();
   bool robustness = false;
   app.add_flag("--robustness", robustness, "What exactness costs: beside float kernels without the care for numbers");
-  std::string peer, baseline, json_path, scenes = "sml";
-  bool robust_peer = false;
-  app.add_option("--peer", peer, "Beside another tracer, on the bench scenes: embree")
+  std::string baseline;
+  PeerArguments peer;
+  app.add_option("--peer", peer.name, "Beside another tracer, on the bench scenes: embree")
       ->check(CLI::IsMember({"embree"}));
   app.add_option("--baseline", baseline, "Beside the way of the textbooks, on the bench scenes: textbook")
       ->check(CLI::IsMember({"textbook"}))
       ->excludes("--peer");
-  app.add_option("--scenes", scenes, "Which of them: s, m, l (63,000, 670,000, 6.6 million triangles)")
+  app.add_option("--scenes", peer.scenes, "Which of them: s, m, l (63,000, 670,000, 6.6 million triangles)")
+      ->check(is_bench_scenes)
       ->capture_default_str();
-  app.add_flag("--robust-peer", robust_peer, "Embree's robust mode");
-  app.add_option("--json", json_path, "Also write the figures of --peer or --baseline to a file, one scene a line");
+  app.add_flag("--robust-peer", peer.is_robust, "Embree's robust mode");
+  app.add_flag(
+         "--markdown", peer.as_markdown,
+         "The figures of --peer as the table of renderer/trace/README.md on standard output; all else on standard "
+         "error")
+      ->needs("--peer");
+  app.add_option("--json", peer.json_path,
+                 "Also write the figures of --peer or --baseline to a file, one scene a line");
   CLI11_PARSE(app, argc, argv);
 #if !TILELIGHT_WITH_EMBREE
-  if (!peer.empty()) {
+  if (!peer.name.empty()) {
     std::fprintf(stderr, "bench_rays: built without Embree; install libembree-dev and configure again\n");
     return 2;
   }
 #endif
-  if (!peer.empty() || !baseline.empty()) {
-    using namespace tilelight;
-    TilePool pool(threads);
-    std::ofstream json;
-    if (!json_path.empty()) json.open(json_path);
-    // From a thread of the pool, so that a loop over tiles has no more threads than that.
-    pool.submit(Priority::normal,
-                [&] {
-                  for (const char size : scenes) {
-                    const std::string name(1, size), document = bench::bench_scene(bench::detail_of(size));
-                    std::string figures;
-                    if (!baseline.empty()) figures = bench::compare_with_textbook(name, document, pool, rounds);
-#if TILELIGHT_WITH_EMBREE
-                    if (!peer.empty()) figures = bench::compare_with_embree(name, document, pool, rounds, robust_peer);
-#endif
-                    if (json) json << figures << "\n";
-                  }
-                })
-        .get();
-    if (!json_path.empty() && !json) {
-      std::fprintf(stderr, "bench_rays: cannot write %s\n", json_path.c_str());
-      return 1;
-    }
-    return 0;
-  }
+  peer.rounds = rounds;
+  if (!peer.name.empty() || !baseline.empty()) return tilelight::run_beside(peer, threads);
   return tilelight::run(path, rounds, threads, robustness);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "tests/bench/waves.h"
 
@@ -11,6 +12,11 @@ namespace tilelight::bench {
 
 enum class EmbreeMode { single, packets, stream };  // rtcIntersect1, rtcIntersect16, rtcIntersect1M
 
+// Which Embree was met: its version, and what of its build costs time: "Embree 3.13.5 (ray masks on, assertions on)".
+// Ray masks are a property of the device; assertions show by what the library imports.
+std::string embree_build();
+
+// All calls that are timed run with denormal numbers as zero, as Embree's manual asks; ours never do.
 class EmbreeTracer {
  public:
   // REQUIRES: every body is a mesh.

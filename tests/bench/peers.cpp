@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/embree_rays.h"
 #include "tests/bench/frame.h"
+#include "tests/bench/machine.h"
 #include "tests/bench/timing.h"
 #include "tests/bench/waves.h"
 
@@ -43,69 +45,116 @@ std::vector<double> best_of(const std::array<ModeTimes, 3>& modes) {
   return out;
 }
 
+double ms(const std::vector<double>& seconds) { return 1e3 * median(seconds); }
+
+struct Kind {
+  const char* name;
+  int max_depth;
+  size_t shadow_lights;  // so many cast shadows; the rest of them light without
+};
+
+PeerFigures::Frame compare_frame(const Kind& kind, const ParsedScene& parsed, const EmbreeTracer& embree,
+                                 TilePool& pool, int rounds, std::FILE* log) {
+  Scene of_kind = parsed.scene;
+  for (size_t i = 0; i < of_kind.lights.size(); ++i) of_kind.lights[i].shadow = i < kind.shadow_lights;
+  View view = parsed.view;
+  view.render.max_depth = kind.max_depth;
+  const auto lit = compile_scene(of_kind, pool);
+  const ViewPlan lit_plan = plan_view(*lit, view);
+  const FrameWaves waves = waves_of(*lit, lit_plan, pool);
+  const std::array jobs = {embree.prepare(waves, EmbreeMode::single), embree.prepare(waves, EmbreeMode::packets),
+                           embree.prepare(waves, EmbreeMode::stream)};
+  std::vector<double> frame, traced;
+  std::array<ModeTimes, 3> modes;
+  Film film(view.image.width, view.image.height);
+  film.grow(1);
+  for (int round = 0; round < rounds; ++round) {
+    frame.push_back(seconds_of([&] { render_frame(*lit, lit_plan, pool, film); }));
+    traced.push_back(trace_waves(*lit, waves, pool));
+    for (size_t mode = 0; mode < jobs.size(); ++mode) modes[mode].push_back(embree.run(*jobs[mode], pool));
+  }
+  const std::vector<double> best = best_of(modes);
+  std::vector<double> their_frame;  // reckoned: our frame with their tracing in place of ours
+  for (size_t i = 0; i < best.size(); ++i) their_frame.push_back(frame[i] - traced[i] + best[i]);
+  const PeerFigures::Frame out{kind.name,
+                               ms(frame),
+                               ms(traced),
+                               ms(sums(modes[0])),
+                               ms(sums(modes[1])),
+                               ms(sums(modes[2])),
+                               ms(best),
+                               ratio_of(their_frame, frame),
+                               ratio_of(best, traced)};
+  std::fprintf(log, "%-12s %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f   %.2f (%.2f - %.2f) %.2f (%.2f - %.2f)  %.4f%%\n",
+               kind.name, out.frame_ms, out.traced_ms, out.single_ms, out.packets_ms, out.stream_ms, out.best_ms,
+               out.whole.middle, out.whole.least, out.whole.most, out.alone.middle, out.alone.least, out.alone.most,
+               embree.differing(*jobs[1], *lit, waves));
+  for (const WaveKind& of : kinds_of(waves))
+    std::fprintf(log, "    %-16s %8.2f Mrays\n", of.name().c_str(), 1e-6 * static_cast<double>(of.rays));
+  return out;
+}
+
 }  // namespace
 
-std::string compare_with_embree(const std::string& name, const std::string& document, TilePool& pool, int rounds,
-                                bool robust) {
+PeerFigures compare_with_embree(const std::string& name, const std::string& document, TilePool& pool, int rounds,
+                                bool robust, std::FILE* log) {
   const ParsedScene parsed = parse_scene(document, Limits{}).value();
   std::shared_ptr<const CompiledScene> scene;
   const double compile_s = seconds_of([&] { scene = compile_scene(parsed.scene, pool); });
-  const ViewPlan plan = plan_view(*scene, parsed.view);
+  PeerFigures out{name, plan_view(*scene, parsed.view).plan.triangles_instanced, {}};
   const EmbreeTracer embree(*scene, pool.thread_count(), robust);
-  std::printf(
+  std::fprintf(
+      log,
       "\n%s: %lld triangles; compiled in %.0f ms, Embree's tree alone (medium, %.1f bytes a triangle) in %.0f ms\n",
-      name.c_str(), static_cast<long long>(plan.plan.triangles_instanced), 1e3 * compile_s,
-      static_cast<double>(embree.memory_bytes()) / static_cast<double>(plan.plan.triangles_instanced),
-      embree.build_ms());
-  std::printf("%-12s %8s %8s %8s %8s %8s %8s   %-18s %-18s %s\n", "", "frame ms", "traced", "single", "packets",
-              "stream", "EB, best", "frame, EB/ours", "traced, EB/ours", "other hits");
-  struct Kind {
-    const char* name;
-    int max_depth;
-    size_t shadow_lights;  // so many cast shadows; the rest of them light without
-  };
+      name.c_str(), static_cast<long long>(out.triangles), 1e3 * compile_s,
+      static_cast<double>(embree.memory_bytes()) / static_cast<double>(out.triangles), embree.build_ms());
+  std::fprintf(log, "%-12s %8s %8s %8s %8s %8s %8s   %-18s %-18s %s\n", "", "frame ms", "traced", "single", "packets",
+               "stream", "EB, best", "frame, EB/ours", "traced, EB/ours", "other hits");
+  for (const Kind& kind : {Kind{"primary", 0, 0}, Kind{"+ 1 shadow", 0, 1}, Kind{"Whitted", 3, 2}})
+    out.frames.push_back(compare_frame(kind, parsed, embree, pool, rounds, log));
+  return out;
+}
+
+std::string peer_json(const PeerFigures& figures) {
   Json rows = Json::array();
-  for (const Kind& kind : {Kind{"primary", 0, 0}, Kind{"+ 1 shadow", 0, 1}, Kind{"Whitted", 3, 2}}) {
-    Scene of_kind = parsed.scene;
-    for (size_t i = 0; i < of_kind.lights.size(); ++i) of_kind.lights[i].shadow = i < kind.shadow_lights;
-    View view = parsed.view;
-    view.render.max_depth = kind.max_depth;
-    const auto lit = compile_scene(of_kind, pool);
-    const ViewPlan lit_plan = plan_view(*lit, view);
-    const FrameWaves waves = waves_of(*lit, lit_plan, pool);
-    const std::array jobs = {embree.prepare(waves, EmbreeMode::single), embree.prepare(waves, EmbreeMode::packets),
-                             embree.prepare(waves, EmbreeMode::stream)};
-    std::vector<double> frame, traced;
-    std::array<ModeTimes, 3> modes;
-    Film film(view.image.width, view.image.height);
-    film.grow(1);
-    for (int round = 0; round < rounds; ++round) {
-      frame.push_back(seconds_of([&] { render_frame(*lit, lit_plan, pool, film); }));
-      traced.push_back(trace_waves(*lit, waves, pool));
-      for (size_t mode = 0; mode < jobs.size(); ++mode) modes[mode].push_back(embree.run(*jobs[mode], pool));
-    }
-    const std::vector<double> best = best_of(modes);
-    std::vector<double> their_frame;  // reckoned: our frame with their tracing in place of ours
-    for (size_t i = 0; i < best.size(); ++i) their_frame.push_back(frame[i] - traced[i] + best[i]);
-    const Ratio whole = ratio_of(their_frame, frame), alone = ratio_of(best, traced);
-    const double others = embree.differing(*jobs[1], *scene, waves);
-    const auto ms = [](const std::vector<double>& s) { return 1e3 * median(s); };
-    std::printf("%-12s %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f   %.2f (%.2f - %.2f) %.2f (%.2f - %.2f)  %.4f%%\n",
-                kind.name, ms(frame), ms(traced), ms(sums(modes[0])), ms(sums(modes[1])), ms(sums(modes[2])), ms(best),
-                whole.middle, whole.least, whole.most, alone.middle, alone.least, alone.most, others);
-    for (const WaveKind& of : kinds_of(waves))
-      std::printf("    %-16s %8.2f Mrays\n", of.name().c_str(), 1e-6 * static_cast<double>(of.rays));
-    rows.push_back({{"frame", kind.name},
-                    {"frame_ms", ms(frame)},
-                    {"traced_ms", ms(traced)},
-                    {"embree_single_ms", ms(sums(modes[0]))},
-                    {"embree_packets_ms", ms(sums(modes[1]))},
-                    {"embree_stream_ms", ms(sums(modes[2]))},
-                    {"embree_best_ms", ms(best)},
-                    {"frame_ratio", {whole.least, whole.middle, whole.most}},
-                    {"traced_ratio", {alone.least, alone.middle, alone.most}}});
+  for (const PeerFigures::Frame& frame : figures.frames) {
+    rows.push_back({{"frame", frame.name},
+                    {"frame_ms", frame.frame_ms},
+                    {"traced_ms", frame.traced_ms},
+                    {"embree_single_ms", frame.single_ms},
+                    {"embree_packets_ms", frame.packets_ms},
+                    {"embree_stream_ms", frame.stream_ms},
+                    {"embree_best_ms", frame.best_ms},
+                    {"frame_ratio", {frame.whole.least, frame.whole.middle, frame.whole.most}},
+                    {"traced_ratio", {frame.alone.least, frame.alone.middle, frame.alone.most}}});
   }
-  return Json{{"scene", name}, {"triangles", plan.plan.triangles_instanced}, {"rows", rows}}.dump();
+  return Json{{"scene", figures.scene},
+              {"triangles", figures.triangles},
+              {"machine", machine_name()},
+              {"peer", embree_build()},
+              {"rows", rows}}
+      .dump();
+}
+
+std::string peer_markdown(const std::vector<PeerFigures>& scenes, int threads, int rounds, bool robust) {
+  std::string out = machine_name() + "; " + std::to_string(threads) + (threads == 1 ? " thread; " : " threads; ") +
+                    embree_build() + (robust ? ", robust" : "") + "; medians of " + std::to_string(rounds) +
+                    " rounds; " + today() + "\n\n| Embree's time over ours |";
+  for (const PeerFigures& scene : scenes) out += " " + scene.scene + " |";
+  out += "\n|---|";
+  for (size_t i = 0; i < scenes.size(); ++i) out += "---|";
+  for (const auto& [what, ratio] :
+       {std::pair{"tracing alone", &PeerFigures::Frame::alone}, std::pair{"whole frame", &PeerFigures::Frame::whole}}) {
+    for (size_t row = 0; row < scenes.front().frames.size(); ++row) {
+      out += "\n| " + scenes.front().frames[row].name + ", " + what + " |";
+      for (const PeerFigures& scene : scenes) {
+        char cell[16];
+        std::snprintf(cell, sizeof cell, " %.2f |", (scene.frames[row].*ratio).middle);
+        out += cell;
+      }
+    }
+  }
+  return out + "\n";
 }
 
 }  // namespace tilelight::bench

@@ -141,7 +141,7 @@ test('the command draws and refuses as the server does, and says on the terminal
 
 test('messages name characters and hold none that a terminal would act on', async () => {
   const kOdd = [['\u001b[2J', 'U\\+001B'], ['\u0000', 'U\\+0000'], ['\u009b', 'U\\+009B'], ['\u00e9', "'\u00e9' \\(U\\+00E9\\)"],
-    ['\uff18', 'U\\+FF18'], ['x', "'x'"]];
+    ['\uff18', "'\uff18' \\(U\\+FF18\\)"], ['x', "'x'"]];
   for (const [odd, name] of kOdd) {
     const { problem } = await draw(boardOf(`8/8/8/8/8/8/8/7${odd}`));
     assert.equal(problem.status, 422);
@@ -180,7 +180,7 @@ test('the pattern of the schema matches all that is drawn and refuses what a pat
   for (const { line, program, refusal } of await readLines()) assert.equal(pattern.test(line), !refusal, program);
   for (const { what, fen } of await readJson('positions_as_pasted.json')) assert.ok(pattern.test(fen), what);
   for (const fen of ['', '8/8', '8/8/8/8/8/8/8', '8/8/8/8/8/8/8/8/8', '8/8/8/9/8/8/8/8', '8/8/8/8/8/8/8/7x', 'startpos',
-    '8/8/8/8//8/8/8', '8/8/8/8/8/8/8/8[', '8/8/8/8/8/8/8/8[x]', '8/8/8/8/8/8/8/8Q', '~8/8/8/8/8/8/8/8',
+    '8/8/8/8//8/8/8', '8/8/8/8/8/8/8/8[', '8/8/8/8/8/8/8/8[x]', '8/8/8/8/8/8/8/8]', '~8/8/8/8/8/8/8/8',
     '8 8 8 8 8 8 8 8', `${kStart}/RNBQKBNR`, 'ppppppppp/8/8/8/8/8/8/8', `x ${kStart}`, '[Event "?"]\n\n1. e4 *']) {
     assert.ok(!pattern.test(fen), fen);
     assert.equal((await draw(boardOf(fen))).problem?.status, 422, fen);
@@ -189,7 +189,7 @@ test('the pattern of the schema matches all that is drawn and refuses what a pat
 
 test('the pattern takes no time over texts that almost match', async () => {
   const pattern = new RegExp((await fenSchema()).pattern, 'u');
-  for (const part of ['a:', 'fen ', '"', ' ', '8/', '[FEN "', '[', 'p~', '8 / ', 'a', '/', '_"']) {
+  for (const part of ['a:', 'fen ', '"', ' ', '8/', '[FEN "', '[', 'p~', '8 ', 'a', '/', '_"']) {
     assert.equal(pattern.test(part.repeat(Math.floor(4096 / part.length))), false, part);
   }
 });
@@ -294,7 +294,7 @@ test('the server does not start from a configuration with bytes behind a NUL', a
   daemon.stderr.on('data', (text) => { output += text; });
   const code = await new Promise((resolve) => daemon.once('exit', resolve));
   assert.notEqual(code, 0);
-  assert.match(output, /U\+0000/);
+  assert.match(output, /config\.json.*NUL/);
 });
 
 const kNoNumbers = ['01', '-01', '+1', '.5', '1.', '1e', '1e+', '-', '0x1', '1_000', 'NaN', 'Infinity', '-Infinity', '00', '1.e3', '\uff11', '1d', "'1'"];

@@ -17,7 +17,7 @@ namespace {
 
 TEST(LogLine, StaysALineWhateverAClientSends) {
   const Log::Fields fields = {{"path", "/a\nb \"c\""}, {"status", int64_t{200}}, {"ms", 1.5}};
-  EXPECT_EQ(log_line_text("request", fields), "request path=\"/a\\u000ab \\\"c\\\"\" status=200 ms=1.50");
+  EXPECT_EQ(log_line_text("request", fields), "request path=\"/a\\nb \\\"c\\\"\" status=200 ms=1.50");
   const auto json = nlohmann::json::parse(log_line_json("now", "info", "request", fields));
   EXPECT_EQ(json.at("path"), "/a\nb \"c\"");
   EXPECT_EQ(log_line_json("now", "info", "x", {{"y", "\xff\n"}}).find('\n'), std::string::npos);

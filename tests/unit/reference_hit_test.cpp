@@ -201,14 +201,14 @@ TEST(ReferenceCamera, SeesTheSceneUprightWithItsRightOnTheRight) {
   }
 }
 
-TEST(ReferenceCamera, TakesAWorldAxisForUpWhenUpSaysNothing) {
+TEST(ReferenceCamera, HasNorthUpInAViewStraightDown) {
   Scene scene = dark_scene();
   add_object(scene, SphereShape{Vec3(0), 0.1});
   const ReferenceScene sphere(scene);
   Camera camera = perspective_camera(Vec3(0, 5, 0), Vec3(0), 0.4);
   const ReferenceEye eye = make_reference_eye(sphere, square_view(10), camera);
   EXPECT_NEAR(glm::length(eye.right), glm::length(eye.down), 1e-15);
-  EXPECT_NEAR(glm::dot(glm::normalize(eye.down), Vec3(-1, 0, 0)), 1.0, 1e-15);  // +x is up
+  EXPECT_NEAR(glm::dot(glm::normalize(eye.down), Vec3(0, 0, 1)), 1.0, 1e-15);  // -z is up
 }
 
 }  // namespace

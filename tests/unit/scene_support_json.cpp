@@ -242,8 +242,8 @@ struct SchemaJudge::State {
       if (properties.contains(key)) {
         if (!accepts(properties[key], member)) return false;
       } else if (!key.starts_with("x-")) {  // the only pattern there is
-        const json& additional = rules.at("additionalProperties");
-        if (additional == false || !accepts(additional, member)) return false;
+        const auto additional = rules.find("additionalProperties");  // absent: anything
+        if (additional != rules.end() && (*additional == false || !accepts(*additional, member))) return false;
       }
     }
     return true;
