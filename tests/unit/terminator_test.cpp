@@ -255,7 +255,7 @@ TEST_F(Terminators, AreExactWhereverTheFacetFacesTheLight) {
     }
   }
   EXPECT_GT(facing, 24000u);
-  EXPECT_GT(shadowed, 600u);
+  EXPECT_GT(shadowed, 400u);
   EXPECT_EQ(differing, 0u);
 }
 
