@@ -271,6 +271,17 @@ RoundedFacet rounded_facet(const ReferenceBody& body, const Hit& hit) {
   return out;
 }
 
+bool are_of_one_curve(const ReferenceBody& body, const Hit& one, const Hit& other) {
+  const TriMesh& mesh = *body.mesh->mesh;
+  for (int i = 0; i < 9; ++i) {
+    const int a = i / 3, b = i % 3;
+    const bool is_one_place =
+        mesh.positions[corners(mesh, one.primitive)[a]] == mesh.positions[corners(mesh, other.primitive)[b]];
+    if (is_one_place && mesh.corner_normals[one.primitive][a] == mesh.corner_normals[other.primitive][b]) return true;
+  }
+  return false;
+}
+
 PatternPoint pattern_at(const ReferenceBody& body, const Hit& hit) {
   const Vec3 point = transform_point(body.pattern_from_local, hit.local);
   if (body.kind == BodyKind::sphere) return {point, -1};

@@ -89,6 +89,8 @@ struct RoundedFacet {
   double turn = 0.0, longest_edge = 0.0;
 };
 RoundedFacet rounded_facet(const ReferenceBody& body, const Hit& hit);
+// Whether the triangles of two hits meet in a corner without a crease. REQUIRES: the same.
+bool are_of_one_curve(const ReferenceBody& body, const Hit& one, const Hit& other);
 Vec3 geometric_normal(const ReferenceBody& body, const Hit& hit);
 // The largest angle between a facet's normal and those given to its corners, radians; 0 on other surfaces.
 double facet_spread(const ReferenceBody& body, const Hit& hit);

@@ -58,6 +58,7 @@ bool is_hidden_by_facet(const ReferenceScene& scene, const ShadingPoint& at, con
   if (glm::dot(at.geometric, ray.direction) >= 2.0 * facet.turn) return false;
   const auto met = scene.nearest(ray);
   if (!met || met->body != at.hit.body || met->t >= 2.0 * facet.longest_edge) return false;
+  if (!are_of_one_curve(scene.body(met->body), at.hit, *met)) return false;
   const ShadingPoint other = shading_point(scene.body(met->body), *met, ray.direction);
   return glm::dot(other.shading, ray.direction) > 0.0 && glm::dot(other.geometric, at.geometric) > 0.0;
 }

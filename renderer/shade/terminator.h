@@ -2,8 +2,8 @@
 // The terminator: where the light ends on a rounded surface, a facet of a mesh whose normals stand for a curved one.
 // Shading ends where the normals turn away from the light; the facets end it too early, and in steps. The rule here,
 // which README.md tells with its reasons and its limits: light comes straight to a facet, and whatever it meets casts a
-// shadow; only where facets of the same mesh hide it that are lit from behind does it come over the curve (Hanika 2021,
-// Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4) and down to the facet. Pure; any thread.
+// shadow; only where facets of the same curve hide it that are lit from behind does it come over the curve (Hanika
+// 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4) and down to the facet. Pure; any thread.
 #pragma once
 
 #include "renderer/compile/compiled_scene.h"
@@ -20,7 +20,8 @@ inline constexpr double kLeastLift = 0x1p-36;
 double reach_of_facets(const CompiledScene& scene, const Departure& facet, const Vec3& geometric_normal,
                        const Vec3& to_light);
 
-// Whether a shadow ray meets such a facet: of its own mesh, on the same side, and by its normals lit from behind.
+// Whether a shadow ray meets such a facet: with a corner in common, on the same side, and by its normals lit from
+// behind.
 bool is_lit_from_behind(const CompiledScene& scene, const Ray& shadow, const Vec3& geometric_normal, const Hit& met);
 
 }  // namespace tilelight
