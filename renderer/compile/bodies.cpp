@@ -69,8 +69,7 @@ struct GlassMesh {
 
 class BodyMaker {
  public:
-  explicit BodyMaker(const Scene& scene)
-      : scene_(scene), meshes_(scene.meshes.size()), glass_meshes_(scene.meshes.size()) {}
+  explicit BodyMaker(const Scene& scene) : scene_(scene), meshes_(scene.meshes.size()) {}
 
   std::vector<Body> make() {
     for (index_ = 0; index_ < scene_.objects.size(); ++index_) {
@@ -114,11 +113,14 @@ class BodyMaker {
   void place(const MeshShape& shape) {
     auto& mesh = meshes_[shape.mesh];
     if (!mesh) mesh = std::make_shared<const TriMesh>(make_tri_mesh(scene_.meshes[shape.mesh]));
-    Body& body = add(BodyKind::mesh, Mat4(1.0), object().material);
+    set_mesh(add(BodyKind::mesh, Mat4(1.0), object().material), mesh);
+  }
+
+  void set_mesh(Body& body, const std::shared_ptr<const TriMesh>& mesh) {
     body.mesh = mesh;
     body.is_solid = mesh->closed;
     if (!mesh->closed || scene_.materials[body.material].transmission == Color(0.0)) return;
-    const GlassMesh& glass = glass_mesh(shape.mesh);
+    const GlassMesh& glass = glass_mesh(mesh);
     body.mesh = glass.mesh;
     body.is_solid = glass.has_volume;
     body.is_turned = glass.mesh != mesh;
@@ -126,10 +128,9 @@ class BodyMaker {
   }
 
   // A closed mesh as transparent bodies wear it: light is bent by which side is the inner one.
-  const GlassMesh& glass_mesh(uint32_t index) {
-    GlassMesh& glass = glass_meshes_[index];
+  const GlassMesh& glass_mesh(const std::shared_ptr<const TriMesh>& mesh) {
+    GlassMesh& glass = glass_meshes_[mesh.get()];
     if (glass.mesh) return glass;
-    const auto& mesh = meshes_[index];
     const Shells shells = find_shells(*mesh);
     glass.has_volume = holds_volume(shells);
     glass.may_touch_itself = !mesh->is_manifold || shells.volume.size() > 1;
@@ -139,8 +140,8 @@ class BodyMaker {
   }
 
   void place(const ChessPieceShape& shape) {
-    add(BodyKind::mesh, translation(shape.position) * facing(shape.side), object().material).mesh =
-        piece(shape.piece, shape.detail);
+    set_mesh(add(BodyKind::mesh, translation(shape.position) * facing(shape.side), object().material),
+             piece(shape.piece, shape.detail));
   }
 
   void place(const ChessPositionShape& position) {
@@ -157,14 +158,14 @@ class BodyMaker {
                 material(is_light ? ChessRole::light : ChessRole::dark), "square/" + square_name(rank, file));
       }
     }
-    add(BodyKind::mesh, Mat4(1.0), material(ChessRole::frame), "frame").mesh = frame();
+    set_mesh(add(BodyKind::mesh, Mat4(1.0), material(ChessRole::frame), "frame"), frame());
     for (int rank = 0; rank < 8; ++rank) {
       for (int file = 0; file < 8; ++file) {
         const auto& man = position.squares[rank][file];
         if (!man) continue;
-        add(BodyKind::mesh, translation(middle(rank, file)) * facing(man->side),
-            material(man->side == Side::white ? ChessRole::white : ChessRole::black), square_name(rank, file))
-            .mesh = piece(man->piece, position.detail);
+        set_mesh(add(BodyKind::mesh, translation(middle(rank, file)) * facing(man->side),
+                     material(man->side == Side::white ? ChessRole::white : ChessRole::black), square_name(rank, file)),
+                 piece(man->piece, position.detail));
       }
     }
   }
@@ -184,7 +185,7 @@ class BodyMaker {
   size_t index_ = 0;
   std::vector<Body> bodies_;
   std::vector<std::shared_ptr<const TriMesh>> meshes_;  // by Scene::meshes
-  std::vector<GlassMesh> glass_meshes_;                 // likewise
+  std::map<const TriMesh*, GlassMesh> glass_meshes_;    // of those above and below
   std::map<std::pair<Piece, int>, std::shared_ptr<const TriMesh>> pieces_;
   std::shared_ptr<const TriMesh> frame_;
 };

@@ -41,7 +41,7 @@ struct Body {
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
   bool is_solid = true;                 // it has an inside
   bool is_turned = false;         // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
-  bool may_touch_itself = false;  // a transparent mesh of several shells, or of shells that share edges
+  bool may_touch_itself = false;  // a transparent mesh of several shells, or of some that share edges
   Layer layer = Layer::opaque;
   // Of surfaces in one place the one of the lowest rank is met first. Films come first, then what is opaque, by id,
   // then media: the higher priority first, then the higher ior; then what else tells materials, shapes and placements

@@ -120,7 +120,7 @@ class CavityFinder {
     constexpr double kFilled = 0.75;  // 0.5 is on a surface
     const std::vector<uint32_t>& own = triangles_[shell];
     const size_t count = std::min(kPlaces, own.size());
-    std::array<double, kPlaces> windings{};
+    std::vector<double> windings(count, 0.0);
     for (uint32_t other = 0; other < triangles_.size(); ++other) {
       if (!spend(1)) return true;
       if (other == shell || !extents_[other].holds(extents_[shell])) continue;
@@ -129,7 +129,7 @@ class CavityFinder {
         windings[i] += signs[other] * winding(other, middle_of(own[i * own.size() / count]));
       }
     }
-    std::sort(windings.begin(), windings.begin() + static_cast<std::ptrdiff_t>(count));
+    std::sort(windings.begin(), windings.end());
     return windings[count / 2] > kFilled;
   }
 

@@ -163,6 +163,7 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       material(body.material),
       mesh(std::move(mesh_tree)),
       is_solid(body.is_solid),
+      may_touch_itself(body.may_touch_itself),
       layer(body.layer),
       rank(body.rank),
       bounds(world_bounds(*this)),

@@ -60,6 +60,7 @@ struct ReferenceBody {
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
   bool is_solid;  // has an inside: light can be bent on its way in and out
+  bool may_touch_itself;
   Layer layer;
   uint32_t rank;
   Box bounds;            // world space; infinite for planes

@@ -125,7 +125,7 @@ std::vector<Hit> ReferenceScene::surfaces_at(const Ray& ray, const Hit& hit) con
   const auto offer = [&](Hit other) {
     const double across = std::fabs(other.t) * steepness(bodies_[other.body], other, ray.direction);
     if (std::fabs(other.t) > reach || across > noise + rounding_between(other.body, hit.body)) return;
-    if (other.body == hit.body && other.primitive == hit.primitive) return;
+    if (other.body == hit.body && (other.primitive == hit.primitive || !owner.may_touch_itself)) return;
     other.t += hit.t;
     const bool is_left = other.body == ray.left.body && other.primitive == ray.left.primitive;
     if (!is_left && (!is_at_start(ray, other) || is_met_at_start(ray, other.body))) found.push_back(other);

@@ -118,8 +118,8 @@ struct Crossing {
   Crossing(MediaSets& sets, MediaSets::Set media, uint32_t body, bool from_outside)
       : Crossing(sets, media, from_outside ? std::span(&body, 1) : std::span<uint32_t>(),
                  from_outside ? std::span<uint32_t>() : std::span(&body, 1), {}) {}
-  // entered: outermost first. left: by rank. thinner: bodies that are entered and left in this very place, and are thin
-  // in it.
+  // entered: outermost first. left: by rank. Both may name a body as often as it is crossed. thinner: bodies that are
+  // entered and left in this very place, and are thin in it.
   Crossing(MediaSets& sets, MediaSets::Set media, std::span<const uint32_t> entered, std::span<const uint32_t> left,
            std::span<const uint32_t> thinner)
       : before(media) {
@@ -127,7 +127,9 @@ struct Crossing {
       if (!sets.contains(before, body)) before = sets.with(before, body);
     }
     after = before;
-    for (const uint32_t body : left) after = sets.without(after, body);
+    for (const uint32_t body : left) {
+      if (sets.contains(after, body)) after = sets.without(after, body);
+    }
     for (const uint32_t body : entered) after = sets.with(after, body);
     for (const uint32_t body : left) show(sets, body, sets.top(before) == body);
     for (const uint32_t body : entered) show(sets, body, sets.top(after) == body);

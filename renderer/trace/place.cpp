@@ -14,7 +14,7 @@ namespace {
 
 bool goes_in(const CompiledScene& scene, const Vec3& place, const Vec3& direction, const Hit& hit) {
   const CompiledBody& body = scene.bodies[hit.body];
-  const LocalRay local = to_local(body, {.origin = place, .direction = direction});
+  const LocalRay local = to_local(body, {place, direction, {}, Coincident::none});
   return facing(body, local, direction, hit.prim, 0.0) < 0.0;
 }
 
@@ -24,7 +24,7 @@ bool goes_in(const CompiledScene& scene, const Vec3& place, const Vec3& directio
 void PlaceCrosser::find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& place) {
   find_surfaces(scene_, place, ray.direction, hit.body, surfaces_);
   std::erase_if(surfaces_, [&](Hit& other) {
-    if (other.body == hit.body && other.prim == hit.prim) return true;
+    if (other.body == hit.body && (other.prim == hit.prim || !scene_.bodies[hit.body].may_touch_itself)) return true;
     if (other.body == ray.left.body && other.prim == ray.left.prim) return true;
     other.t += hit.t;
     return lies_at_start(scene_, ray, other) && !is_met_at_start(scene_, ray, other.body);
@@ -36,13 +36,16 @@ void PlaceCrosser::find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& 
   });
 }
 
-// Fills passages_, one a body: facets that meet where the ray does are crossed once.
+// Fills passages_, one a body.
 void PlaceCrosser::find_passages(const Vec3& place, const Vec3& direction) {
+  constexpr double kOnEdge = 1e-9;
   passages_.clear();
   for (const Hit& hit : surfaces_) {
     if (passages_.empty() || passages_.back().body != hit.body) passages_.push_back({hit.body, {}, {}});
-    Hit& side = goes_in(scene_, place, direction, hit) ? passages_.back().in : passages_.back().out;
-    if (!side.is_hit()) side = hit;
+    Side& side = goes_in(scene_, place, direction, hit) ? passages_.back().in : passages_.back().out;
+    if (!side.first.is_hit()) side.first = hit;
+    const bool is_inner = std::min({hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1}) > kOnEdge;
+    side.inner += is_inner && scene_.bodies[hit.body].kind == BodyKind::mesh;
   }
 }
 
@@ -53,7 +56,7 @@ void PlaceCrosser::sort_outermost_first(const Vec3& place, const Vec3& direction
   for (const uint32_t body : entered_) {
     const auto passage =
         std::find_if(passages_.begin(), passages_.end(), [&](const Passage& p) { return p.body == body; });
-    const Ray inside{.origin = place, .direction = direction, .left = {body, passage->in.prim}};
+    const Ray inside{place, direction, {body, passage->in.first.prim}, Coincident::none};
     by_exit.emplace_back(trace_body(scene_, body, inside).t, body);
   }
   // Exits closer together than a long way is rounded by are in one place.
@@ -66,15 +69,17 @@ Crossing PlaceCrosser::cross_all(const Vec3& place, const Vec3& direction, Media
   find_passages(place, direction);
   entered_.clear(), left_.clear(), thinner_.clear();
   for (const Passage& passage : passages_) {
-    const bool enters = passage.in.is_hit(), leaves = passage.out.is_hit();
+    const int net = passage.in.count() - passage.out.count();
+    if (net > 0) entered_.insert(entered_.end(), static_cast<size_t>(net), passage.body);
+    if (net < 0) left_.insert(left_.end(), static_cast<size_t>(-net), passage.body);
     // A body of which the ray leaves one shell and enters the next goes on.
-    if (enters && leaves && sets_.contains(media, passage.body)) continue;
-    (enters && leaves ? thinner_ : enters ? entered_ : left_).push_back(passage.body);
+    if (net == 0 && !sets_.contains(media, passage.body)) thinner_.push_back(passage.body);
   }
   sort_outermost_first(place, direction);
   const Crossing crossing(sets_, media, entered_, left_, thinner_);
   for (const Passage& passage : passages_) {
-    if (passage.body == crossing.seen) hit = passage.in.is_hit() ? passage.in : passage.out;
+    if (passage.body != crossing.seen) continue;
+    hit = passage.in.count() >= passage.out.count() ? passage.in.first : passage.out.first;
   }
   return crossing;
 }
@@ -99,8 +104,8 @@ Color PlaceCrosser::tint(const Ray& ray, const Hit& hit) {
   find_passages(place, ray.direction);
   Color product(1.0);
   for (const Passage& passage : passages_) {
-    if (passage.in.is_hit()) product *= kt(passage.body);
-    if (passage.out.is_hit()) product *= kt(passage.body);
+    if (passage.in.first.is_hit()) product *= kt(passage.body);
+    if (passage.out.first.is_hit()) product *= kt(passage.body);
   }
   return product;
 }

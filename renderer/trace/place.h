@@ -22,9 +22,14 @@ class PlaceCrosser {
 
  private:
   // What a ray does with a body whose surfaces lie in the place.
+  struct Side {
+    Hit first;      // no hit if the ray does not cross this way
+    int inner = 0;  // surfaces that are met in their middle; on an edge one is met as two
+    int count() const { return inner > 0 ? inner : first.is_hit(); }
+  };
   struct Passage {
     uint32_t body = kNone;
-    Hit in, out;  // where it enters and leaves; no hit if it does not
+    Side in, out;
   };
   void find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& place);
   void find_passages(const Vec3& place, const Vec3& direction);

@@ -60,7 +60,7 @@ Hit trace_body(const CompiledScene& scene, uint32_t body, const Ray& ray) {
 void find_surfaces(const CompiledScene& scene, const Vec3& place, const Vec3& direction, uint32_t owner,
                    std::vector<Hit>& found) {
   found.clear();
-  HWY_DYNAMIC_DISPATCH(find_surfaces_here)(scene, {.origin = place, .direction = direction}, owner, found);
+  HWY_DYNAMIC_DISPATCH(find_surfaces_here)(scene, {place, direction, {}, Coincident::none}, owner, found);
 }
 
 }  // namespace tilelight

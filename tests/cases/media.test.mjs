@@ -8,9 +8,15 @@ import { after, before, test } from 'node:test';
 
 import { post, readJson, startServer, tilelight } from './harness.mjs';
 
-let folder;
-before(async () => { folder = await mkdtemp(join(tmpdir(), 'tilelight-media-')); });
-after(() => rm(folder, { recursive: true }));
+let folder, server;
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), 'tilelight-media-'));
+  server = await startServer();
+});
+after(async () => {
+  await server.stop();
+  await rm(folder, { recursive: true });
+});
 
 let count = 0;
 async function run(scene, command, ...args) {
@@ -21,13 +27,18 @@ async function run(scene, command, ...args) {
   return result;
 }
 async function picture(scene) {
-  const path = join(folder, `${count++}.png`);
-  await run(scene, 'render', '-o', path);
-  return readFile(path);
+  const response = await post(server, '/v1/renders', scene, { Accept: 'image/png' });
+  const bytes = Buffer.from(await response.arrayBuffer());
+  assert.equal(response.status, 200, bytes.toString());
+  return bytes;
 }
 const explain = async (scene, x = 0, y = 0) =>
   JSON.parse((await run(scene, 'render', '--pixel', `${x},${y}`)).stdout);
-const warnings = async (scene) => JSON.parse((await run(scene, 'plan', '--json')).stdout).plan.warnings;
+async function warnings(scene) {
+  const response = await post(server, '/v1/plan', scene);
+  assert.equal(response.status, 200);
+  return (await response.json()).warnings;
+}
 const codes = async (scene) => (await warnings(scene)).map((warning) => warning.code);
 const turned = (scene) => ({ ...scene, objects: [...scene.objects].reverse() });
 
@@ -94,7 +105,7 @@ test('faces that are in one place but for the rounding of their numbers touch', 
     scene.camera.target = add(scene.camera.target, [far, level[0], 0]);
     return scene;
   };
-  const levels = [[0.3, 0.1 + 0.2], [0.1 + 0.2, 0.3], [0.7, 0.1 * 7], [1e7 / 3, 1e7 / 3], [0.3, 0.3]];
+  const levels = [[0.3, 0.1 + 0.2], [0.1 + 0.2, 0.3], [1e7 / 3, 1e7 / 3]];
   for (const level of levels) {
     for (const far of [0, 1e7 / 7]) {
       for (const order of [(s) => s, turned]) {
@@ -217,23 +228,12 @@ test('worlds of touching things are one picture for every order of their objects
   }
 });
 
-test('the server draws what the command draws, in both orders', async () => {
-  const server = await startServer();
-  try {
-    const scene = { ...await readJson('glass-cube-on-floor.json'), image: { width: 64, height: 48 } };
-    const drawn = async (s) => {
-      const response = await post(server, '/v1/renders', s, { Accept: 'image/png' });
-      assert.equal(response.status, 200);
-      return Buffer.from(await response.arrayBuffer());
-    };
-    const bytes = await drawn(scene);
-    assert.ok(bytes.equals(await drawn(turned(scene))));
-    assert.ok(bytes.equals(await picture(scene)));
-    const plan = await post(server, '/v1/plan', await readJson('glass-inside-out.json'));
-    assert.deepEqual((await plan.json()).warnings.map((warning) => warning.code), ['inside_out_glass']);
-  } finally {
-    await server.stop();
-  }
+test('the command draws what the server draws, and warns of glass inside out', async () => {
+  const scene = { ...await readJson('glass-inside-out.json'), image: { width: 64, height: 48 } };
+  const path = join(folder, 'command.png');
+  const { stderr } = await run(scene, 'render', '-o', path);
+  assert.match(stderr, /\/objects\/1: the mesh is transparent and wound inside out/);
+  assert.ok((await picture(scene)).equals(await readFile(path)));
 });
 
 test('glass wound inside out is drawn as if it were not, with a warning that names the object', async () => {
@@ -332,10 +332,9 @@ const ball = (across, along, [x, y, z] = [1, 1, 1]) => grid(across, along, (u, v
 }, false);
 
 async function assertWhite(scene, what) {
-  const path = join(folder, `${count++}.png`);
-  const white = await picture({ ...scene, materials: { m: { ...scene.materials.m, ior: 1, reflection: 0, fresnel: false } } });
-  await run(scene, 'render', '-o', path);
-  assert.ok(white.equals(await readFile(path)), what);
+  const m = { ...scene.materials.m, ior: 1, reflection: 0, fresnel: false };
+  const white = await picture({ ...scene, materials: { m } });
+  assert.ok(white.equals(await picture(scene)), what);
 }
 
 test('a smooth ball of glass in a white furnace is white to its rim', async () => {
@@ -350,7 +349,7 @@ test('balls, eggs and lenses of coarse and fine facets are white, of any index, 
   for (const [name, mesh] of Object.entries(shapes)) {
     for (const ior of [1.05, 1.33, 1.5, 2.4, 0.7]) {
       const scene = structuredClone(base);
-      scene.image = { width: 100, height: 100 };
+      scene.image = { width: 80, height: 80 };
       scene.render = { samples: 4, max_depth: 8, weight_cutoff: 0 };
       scene.camera.position = [0, 1.3, 4];
       scene.meshes = { s: mesh };

@@ -172,6 +172,64 @@ TEST_F(Compile, WarnsOfGlassWithoutAnInside) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].pointer, "/objects/1");
   EXPECT_EQ(warnings[0].code, "open_glass");
+  const auto inside_out = with_mesh({1, 2, 0, 3, 1, 0, 2, 3, 0, 3, 2, 1});
+  ASSERT_EQ(scene_plan(*inside_out).warnings.size(), 1u);
+  EXPECT_EQ(scene_plan(*inside_out).warnings[0].pointer, "/objects/1");
+  EXPECT_EQ(scene_plan(*inside_out).warnings[0].code, "inside_out_glass");
+  const auto sheet = with_mesh({0, 1, 2, 0, 2, 1});
+  ASSERT_EQ(scene_plan(*sheet).warnings.size(), 1u);
+  EXPECT_EQ(scene_plan(*sheet).warnings[0].code, "open_glass");
+  EXPECT_EQ(sheet->media, 1u) << "the sphere alone";
+  scene.materials[0].transmission = Color(0.0);
+  EXPECT_TRUE(scene_plan(*with_mesh({1, 2, 0, 3, 1, 0, 2, 3, 0, 3, 2, 1})).warnings.empty()) << "seen from both sides";
+}
+
+TEST_F(Compile, AsksForNeighboursWhereMediaMayTouchAlone) {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[0].transmission = Color(0.9);
+  const auto touching = [&](const std::vector<std::pair<Shape, MaterialId>>& shapes) {
+    scene.objects.clear();
+    for (const auto& [shape, material] : shapes) {
+      Object& object = scene.objects.emplace_back();
+      object.shape = shape, object.material = material;
+    }
+    const auto compiled = compile_scene(scene, pool_);
+    std::vector<bool> out(shapes.size());
+    for (const CompiledBody& body : compiled->bodies) out[body.body] = body.may_touch_media;
+    return out;
+  };
+  using Flags = std::vector<bool>;
+  const BoxShape low{{0, 0, 0}, {1, 1, 1}}, high{{0, 1, 0}, {1, 2, 1}}, apart{{0, 1.01, 0}, {1, 2, 1}};
+  EXPECT_EQ(touching({{low, 0}, {high, 0}}), (Flags{true, true}));
+  EXPECT_EQ(touching({{low, 0}, {apart, 0}}), (Flags{false, false}));
+  EXPECT_EQ(touching({{low, 0}, {high, 1}, {PlaneShape{}, 0}}), (Flags{false, false, false})) << "ranks will do";
+  const SphereShape ball{{5, 0, 0}, 1.0}, inner{{5, 0, 0}, 0.9}, next{{7, 0, 0}, 1.0}, across{{6, 0, 0}, 1.0};
+  EXPECT_EQ(touching({{ball, 0}, {inner, 0}}), (Flags{false, false}));
+  EXPECT_EQ(touching({{ball, 0}, {across, 0}}), (Flags{false, false}));
+  EXPECT_EQ(touching({{ball, 0}, {next, 0}}), (Flags{true, true}));
+  EXPECT_EQ(touching({{ball, 0}, {ball, 0}}), (Flags{true, true}));
+}
+
+TEST_F(Compile, RanksSurfacesInOnePlaceByWhatTheyAreAndNotByTheirOrder) {
+  Scene scene;
+  scene.materials.resize(5);
+  for (const int glass : {0, 1, 2, 3}) scene.materials[glass].transmission = Color(0.5 + 0.1 * glass);
+  scene.materials[0].ior = 1.3;
+  scene.materials[2].priority = 1;
+  const BoxShape block{{0, 0, 0}, {1, 1, 1}};
+  const std::vector<std::pair<Shape, MaterialId>> shapes = {
+      {PlaneShape{}, 3}, {block, 4}, {block, 2}, {block, 1}, {block, 0}};
+  std::vector<size_t> order = {0, 1, 2, 3, 4};
+  do {
+    scene.objects.clear();
+    for (const size_t i : order) {
+      scene.objects.emplace_back().shape = shapes[i].first;
+      scene.objects.back().material = shapes[i].second;
+    }
+    const std::vector<Body> bodies = make_bodies(scene);
+    for (size_t i = 0; i < order.size(); ++i) EXPECT_EQ(bodies[i].rank, order[i]);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST_F(Compile, TheFramedCameraHoldsTheBoundingSphereInBothDirections) {
