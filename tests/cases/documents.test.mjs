@@ -15,15 +15,24 @@ const kControls = /[\u0000-\u0009\u000b-\u001f\u007f-\u009f\u200b-\u200f\u2028-\
 let server;
 let folder;
 before(async () => {
-  server = await startServer();
   folder = await mkdtemp(join(tmpdir(), 'tilelight-documents-'));
+  server = await startServer();
 });
 after(async () => {
-  await server.stop();
+  await server?.stop();
   await rm(folder, { recursive: true });
 });
 
 const problemOf = async (answer) => ({ status: answer.status, ...(await answer.json()) });
+
+// The job at `location`, once it is done.
+async function jobDone(location) {
+  for (;;) {
+    const job = await (await fetch(server.url + location, { headers: { Prefer: 'wait=10' } })).json();
+    if (job.state === 'done') return job;
+    assert.ok(['queued', 'running'].includes(job.state), JSON.stringify(job));
+  }
+}
 
 // --- Chess positions
 
@@ -240,10 +249,7 @@ const kRefinable = { image: { width: 16, height: 16 }, render: { samples: 1 }, o
 async function takersOfJson() {
   const job = (await post(server, '/v1/renders', kRefinable, { Prefer: 'wait=30' }));
   const location = job.headers.get('location') ?? `/v1/renders/${(await job.clone().json()).id}`;
-  for (let state = ''; state !== 'done';) {
-    ({ state } = await (await fetch(server.url + location, { headers: { Prefer: 'wait=10' } })).json());
-    assert.ok(['queued', 'running', 'done'].includes(state), state);
-  }
+  await jobDone(location);
   const session = await (await post(server, '/v1/sessions', kRefinable)).json();
   const put = (body) => fetch(`${server.url}/v1/sessions/${session.id}/view`, {
     method: 'PUT', headers: { 'Content-Type': 'application/json' }, body });
@@ -292,7 +298,7 @@ test('the server does not start from a configuration with bytes behind a NUL', a
   let output = '';
   daemon.stdout.on('data', (text) => { output += text; });
   daemon.stderr.on('data', (text) => { output += text; });
-  const code = await new Promise((resolve) => daemon.once('exit', resolve));
+  const code = await new Promise((resolve, reject) => daemon.once('exit', resolve).once('error', reject));
   assert.notEqual(code, 0);
   assert.match(output, /config\.json.*NUL/);
 });
@@ -316,9 +322,8 @@ test('numbers that JSON does not have are refused wherever a number stands', asy
 });
 
 test('words and strings that JSON does not have are refused around a scene too', async () => {
-  for (const value of ['True', 'nil', 'png', "'png'", '"p\tng"', '"\\x"', '"\\u12"', '[1,]', '{"a" 1}', '"png" "jpeg"', '"\ud800"']) {
+  for (const value of ['True', 'nil', 'png', "'png'", '"p\tng"', '"\\x"', '"\\u12"', '"\\ud800"', '[1,]', '{"a" 1}', '"png" "jpeg"']) {
     const body = `{"scene": {"objects": [{"type": "cube"}]}, "format": ${value}}`;
-    if (value === '"\ud800"') continue;  // fetch sends no lone surrogates
     assert.equal((await post(server, '/v1/renders', body)).status, 400, value);
   }
   assert.equal((await post(server, '/v1/renders', '{"scene": {"objects": [{"type": "cube"}]}, "a\tb": 1}')).status, 400);
@@ -387,10 +392,8 @@ test('an up along the view is told by the plan and the job of that view, also wh
       assert.deepEqual(codesOf(await (await post(server, path, body)).json()), told, path);
     }
     const { id } = await (await post(server, '/v1/renders', body)).json();
-    for (let job = {}; job.state !== 'done';) {
-      job = await (await fetch(`${server.url}/v1/renders/${id}`, { headers: { Prefer: 'wait=10' } })).json();
-      if (job.state === 'done') assert.deepEqual([codesOf(job), codesOf(job.report)], [told, told]);
-    }
+    const job = await jobDone(`/v1/renders/${id}`);
+    assert.deepEqual([codesOf(job), codesOf(job.report)], [told, told]);
   }
 });
 
