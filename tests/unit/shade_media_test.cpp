@@ -120,7 +120,7 @@ TEST_F(Crossings, FromOneMediumIntoAnotherAreOneInterfaceBothWays) {
 TEST_F(Crossings, InsideAMediumOfHigherPriorityAreNotSeen) {
   EXPECT_FALSE(cross({2, 0}, {3}, {0}).is_seen());
   EXPECT_TRUE(cross({2, 0}, {3}, {2}).is_seen());
-  EXPECT_EQ(cross({2, 0}, {3}, {2}).seen, 2u) << "3 lies over 0, but 2 bounds what was there";
+  EXPECT_EQ(cross({2, 0}, {3}, {2}).seen, 3u) << "3 bounds what comes and 2 what was; 3 has the lower rank";
 }
 
 TEST_F(Crossings, OfWhatWasNotEnteredCountItAsEntered) {
