@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/shade/scatter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/shade/surface-inl.h"
@@ -68,7 +69,7 @@ Refraction refract_curved(const Surface& surface, const Vec3& d, double eta) {
   }
   if (out.is_total) {
     const CurvedEdge edge(surface);
-    if (edge.is_total(cos_in, eta)) return out;
+    if (edge.is_total(std::max(cos_in, 0.0), eta)) return out;
     out = bent_to(edge.cos_delta, edge.sin_delta);
   }
   const double above = glm::dot(out.direction, surface.geometric_normal);

@@ -341,7 +341,9 @@ test('a smooth ball of glass in a white furnace is white to its rim', async () =
   await assertWhite(await readJson('smooth-glass-ball-in-furnace.json'), 'the ball of 20 by 10');
 });
 
-test('balls, eggs and lenses of coarse and fine facets are white, of any index, at the depth of every day', async () => {
+// What total reflection keeps in the edge of a thin lens comes out after more than 8 surfaces: of a true ellipsoid of
+// ior 2.4 more than of one of facets.
+test('balls and eggs of coarse and fine facets are white, of any index, at the depth of every day, and lenses beyond it', async () => {
   const base = await readJson('smooth-glass-ball-in-furnace.json');
   const shapes = {
     coarse: ball(6, 4), ball: ball(24, 12), fine: ball(64, 32), egg: ball(24, 12, [0.7, 1.2, 0.7]), lens: ball(32, 16, [1, 0.25, 1]),
@@ -350,7 +352,7 @@ test('balls, eggs and lenses of coarse and fine facets are white, of any index, 
     for (const ior of [1.05, 1.33, 1.5, 2.4, 0.7]) {
       const scene = structuredClone(base);
       scene.image = { width: 80, height: 80 };
-      scene.render = { samples: 4, max_depth: 8, weight_cutoff: 0 };
+      scene.render = { samples: 4, max_depth: name === 'lens' ? 60 : 8, weight_cutoff: 0 };
       scene.camera.position = [0, 1.3, 4];
       scene.meshes = { s: mesh };
       scene.materials.m.ior = ior;

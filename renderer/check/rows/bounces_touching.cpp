@@ -83,7 +83,7 @@ Outcome curved_facets(const Context& context) {
     for (const double ior : {1.05, 1.5, 2.4}) {
       for (const bool is_fresnel : {false, true}) {
         const std::string json = "{" + long_paths(size, 2.1, kFront, kBackward, 7) + R"("meshes": {"ball": )" +
-                                 mesh_text(icosphere(levels), R"("crease_deg": 180)") +
+                                 mesh_text(icosphere(levels), R"(,"crease_deg": 180)") +
                                  R"(}, "objects": [{"type": "mesh", "mesh": "ball",
               "rotate_deg": {"axis": [1, 2, 3], "angle": 40}, "material": {"ambient": 0, "diffuse": 0,
               "reflection": )" + (is_fresnel ? "1" : "0") +
