@@ -37,10 +37,13 @@ class Peer {
     mark_front();
     StudySeries series = drawn_as_often(chosen());
     study_.series.push_back(std::move(series));
-    for (const Trial& trial : trials_) {
-      study_.peer_trials.push_back({trial.setting.words(), trial.drawing.spp, trial.drawing.time_ms,
-                                    trial.drawing.cpu_ms, trial.rmse, is_on_front_[&trial - trials_.data()]});
+    for (size_t i = 0; i < trials_.size(); ++i) {
+      const auto& [setting, drawing, rmse] = trials_[i];
+      study_.peer_trials.push_back(
+          {setting.words(), drawing.spp, drawing.time_ms, drawing.cpu_ms, rmse, is_on_front_[i]});
     }
+    std::sort(study_.peer_trials.begin(), study_.peer_trials.end(),
+              [](const PeerTrial& a, const PeerTrial& b) { return a.cpu_ms < b.cpu_ms; });
     add_notes();
   }
 
@@ -79,7 +82,7 @@ class Peer {
     mark_front();
     std::vector<PovSetting> worth_while;
     for (size_t i = 0; i < trials_.size(); ++i)
-      if (is_on_front_[i] && trials_[i].setting.method > 0) worth_while.push_back(trials_[i].setting);
+      if (is_on_front_[i] && trials_[i].setting.depth > 1) worth_while.push_back(trials_[i].setting);
     for (PovSetting setting : worth_while) {
       setting.has_jitter = true;
       try_once(setting);

@@ -21,15 +21,15 @@ std::string pictures(const Study& study) {
 }
 
 std::string runs(const Study& study) {
-  Table table({"series", "setting", "samples a pixel", "time, ms", "rmse", "told", "told right", "p99", "max", "relMSE",
-               "PSNR, dB", "SSIM", "FLIP", "1 / (mse s)"});
+  Table table({"series", "setting", "samples a pixel", "time, ms", "processor time, ms", "rmse", "told", "told right",
+               "p99", "max", "relMSE", "PSNR, dB", "SSIM", "FLIP", "1 / (mse s)"});
   for (const StudySeries& series : study.series) {
     for (const StudyRun& run : series.runs) {
       const ImageError& e = run.error;
       const bool is_told = run.told_rmse >= 0.0;
       table.add({series.name, run.setting, text("%.3g", run.spp),
-                 ms(run.time_ms) + " (" + ms(run.time_low_ms) + " - " + ms(run.time_high_ms) + ")", error(e.rmse),
-                 is_told ? error(run.told_rmse) : "",
+                 ms(run.time_ms) + " (" + ms(run.time_low_ms) + " - " + ms(run.time_high_ms) + ")",
+                 run.cpu_ms > 0.0 ? ms(run.cpu_ms) : "", error(e.rmse), is_told ? error(run.told_rmse) : "",
                  is_told ? std::to_string(run.told_inside) + " of " + std::to_string(run.told_rounds) : "",
                  error(e.p99), error(e.most), text("%.2e", e.rel_mse), text("%.1f", e.psnr_db), text("%.4f", e.ssim),
                  text("%.4f", e.flip), text("%.3g", run.efficiency)},
