@@ -136,7 +136,9 @@ void add_report(CLI::App& app, Run& run) {
   command->add_option("--width", options->report.view.width, "Pixels; without width and height about 32,000 in all");
   command->add_option("--height", options->report.view.height, "Pixels");
   command->add_option("--threads", options->report.threads, "Threads; 0 is one a core")->check(CLI::Range(0, 1024));
-  command->add_option("--against", options->against, "Another program beside ours, where it is installed")
+  command
+      ->add_option("--against", options->against,
+                   "Another program beside ours, at its best settings, where it is installed")
       ->check(CLI::IsMember({"povray"}));
   add_isa_option(*command, options->report.isa);
   command->footer(

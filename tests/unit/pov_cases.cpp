@@ -101,10 +101,10 @@ std::vector<PovCase> of_light() {
        ball(R"({"diffuse": [0.5, 0, 0], "ambient": [0.9, 0.8, 0]})")},
       {"ambient light", "of another checker than the diffuse one",
        R"({"camera": {"position": [2, 5, 3]}, "ambient": 0.4, "objects": [{"type": "plane", "material": {
-           "diffuse": {"checker": {"a": 0.8, "b": 0.1, "size": 1}}, "ambient": {"checker": {"a": 0, "b": 1, "size": 0.7}}}}]})"},
+           "diffuse": {"checker": {"a": 0.8, "b": 0.1, "size": 2}}, "ambient": {"checker": {"a": 0, "b": 1, "size": 1.3}}}}]})"},
       {"ambient light", "of a checker over plain diffuse",
        R"({"camera": {"position": [2, 5, 3]}, "ambient": 0.4, "objects": [{"type": "plane", "material": {
-           "diffuse": 0.3, "ambient": {"checker": {"a": 0, "b": 1, "size": 0.7}}}}]})"},
+           "diffuse": 0.3, "ambient": {"checker": {"a": 0, "b": 1, "size": 1.3}}}}]})"},
       {"attenuation", "linear without a constant", R"({"attenuation": {"mode": "linear", "k": 0}})"},
       {"attenuation", "by the inverse square",
        R"({"attenuation": {"mode": "inverse_square", "k": 3},
@@ -276,7 +276,7 @@ std::vector<PovCase> of_objects() {
        R"({"camera": {"position": [2, 2, 3]}, "objects": [{"type": "plane"},
            {"type": "chess_piece", "piece": "knight", "color": "black", "detail": 32}]})"},
       {"chess positions", "an endgame with a checkered frame",
-       R"({"camera": {"position": [5, 7, 9], "target": [0, 0, 0]},
+       R"({"camera": {"position": [3, 5, 8], "target": [1, 0, 2], "fov_y_deg": 25},
            "lights": [{"type": "directional", "direction": [-1, -2, -1.5], "intensity": 0.7}],
            "objects": [{"type": "chess_position", "fen": "8/8/4k3/8/2Q5/8/3K4/8", "detail": 24,
                         "materials": {"white": {"diffuse": 0.8, "specular": 0.3}, "frame": )" +
