@@ -106,7 +106,8 @@ describe('a picture that a format cannot hold', () => {
       .get('location');
     const jpeg = { headers: { Accept: 'image/jpeg' } };
     await expectRefused(await fetch(`${server.url}${job}/image?partial=1`, jpeg), 406);
-    await fetch(`${server.url}${job}`, { headers: { Prefer: 'wait=30' } });
+    const readJob = async () => (await fetch(`${server.url}${job}`, { headers: { Prefer: 'wait=30' } })).json();
+    while ((await readJob()).state !== 'done');  // each wait ends with a change
     for (const query of ['', '?partial=1', '?layer=error'])
       await expectRefused(await fetch(`${server.url}${job}/image${query}`, jpeg), 406);
     const png = await fetch(`${server.url}${job}/image?layer=error`);
