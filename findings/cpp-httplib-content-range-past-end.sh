@@ -26,16 +26,17 @@ stop() { echo "CHANGED OR UNTESTED: $*" >&2; exit 1; }
 
 # Takes the pinned packages, and those of their dependencies that this system lacks, without installing any.
 fetch_debian() {
-  local pin missing deb
-  for pin in "$@"; do
-    apt-cache madison "${pin%%=*}" 2>/dev/null | grep -qF " ${pin#*=} " || { apt-get update -qq; break; }
-  done
-  missing=$(apt-get --simulate install --no-install-recommends "$@" 2>/dev/null | awk '/^Inst/ { print $2 }')
+  local missing deb
+  missing=$(missing_for "$@") || { apt-get update -qq && missing=$(missing_for "$@"); } ||
+    stop "apt knows no way to install $*; the pinned version has to be one that Debian 12 offers"
   mkdir "$work/debs" "$work/root"
   # shellcheck disable=SC2086  # one word a package
   (cd "$work/debs" && apt-get -qq -o APT::Sandbox::User=root download "$@" $missing) ||
-    stop "the packages $* could not be downloaded; the pinned version has to be one that Debian 12 offers"
+    stop "the packages $* could not be downloaded"
   for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root"; done
+}
+missing_for() {
+  apt-get --simulate install --no-install-recommends --allow-downgrades "$@" 2>/dev/null | awk '/^Inst/ { print $2 }'
 }
 
 fetch_debian libcpp-httplib-dev=0.11.4+ds-1+deb12u1 libcpp-httplib0.11=0.11.4+ds-1+deb12u1
@@ -54,16 +55,17 @@ int main() {
 }
 CPP
 # The three definitions are those of the package's own pkg-config file: the library was built with them.
-g++ -std=c++17 -DCPPHTTPLIB_OPENSSL_SUPPORT -DCPPHTTPLIB_ZLIB_SUPPORT -DCPPHTTPLIB_BROTLI_SUPPORT -isystem "$include" \
-  -isystem "$include/x86_64-linux-gnu" "$work/server.cpp" -L"$lib" -l:libcpp-httplib.so.0.11 -Wl,--allow-shlib-undefined \
-  -pthread -o "$work/server" || stop "the test server does not compile with the pinned header"
+g++ -std=c++17 -DCPPHTTPLIB_OPENSSL_SUPPORT -DCPPHTTPLIB_ZLIB_SUPPORT -DCPPHTTPLIB_BROTLI_SUPPORT \
+  -isystem "$include" -isystem "$include/x86_64-linux-gnu" "$work/server.cpp" \
+  -L"$lib" -l:libcpp-httplib.so.0.11 -Wl,--allow-shlib-undefined -pthread -o "$work/server" ||
+  stop "the test server does not compile with the pinned header"
 LD_LIBRARY_PATH=$lib "$work/server" >"$work/port" &
 server=$!
 for _ in {1..50}; do [[ -s $work/port ]] && break; sleep 0.1; done
 port=$(cat "$work/port")
 [[ -n $port ]] || stop "the test server did not start within 5 s"
 
-echo "Version: cpp-httplib $(grep -o 'CPPHTTPLIB_VERSION "[^"]*"' "$include/httplib.h")"
+echo "Version: cpp-httplib $(sed -n 's/.*CPPHTTPLIB_VERSION "\(.*\)".*/\1/p' "$include/httplib.h")"
 echo "Input: GET with a Range field for 16 octets, 0123456789abcdef."
 failed=0
 # check RANGE BY-RFC FOUND BODY
@@ -76,7 +78,8 @@ check() {
   status=$(awk 'NR == 1 { print $2 }' "$work/answer")
   range=$(sed -n 's/^Content-Range: bytes //p' "$work/answer")
   body=$(sed '1,/^$/d' "$work/answer")
-  printf 'Seen: bytes=%-8s  %s, body %-16s  Content-Range bytes %-11s  by RFC 9110 bytes %s\n' "$1" "$status" "$body" "$range" "$2"
+  printf 'Seen: bytes=%-8s  %s, body %-16s  Content-Range bytes %-11s  by RFC 9110 bytes %s\n' \
+    "$1" "$status" "$body" "$range" "$2"
   [[ $status == 206 && $range == "$3" && $body == "$4" ]] || failed=1
 }
 check 0-3 0-3/16 0-3/16 0123

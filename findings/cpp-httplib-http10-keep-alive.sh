@@ -26,16 +26,17 @@ stop() { echo "CHANGED OR UNTESTED: $*" >&2; exit 1; }
 
 # Takes the pinned packages, and those of their dependencies that this system lacks, without installing any.
 fetch_debian() {
-  local pin missing deb
-  for pin in "$@"; do
-    apt-cache madison "${pin%%=*}" 2>/dev/null | grep -qF " ${pin#*=} " || { apt-get update -qq; break; }
-  done
-  missing=$(apt-get --simulate install --no-install-recommends "$@" 2>/dev/null | awk '/^Inst/ { print $2 }')
+  local missing deb
+  missing=$(missing_for "$@") || { apt-get update -qq && missing=$(missing_for "$@"); } ||
+    stop "apt knows no way to install $*; the pinned version has to be one that Debian 12 offers"
   mkdir "$work/debs" "$work/root"
   # shellcheck disable=SC2086  # one word a package
   (cd "$work/debs" && apt-get -qq -o APT::Sandbox::User=root download "$@" $missing) ||
-    stop "the packages $* could not be downloaded; the pinned version has to be one that Debian 12 offers"
+    stop "the packages $* could not be downloaded"
   for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root"; done
+}
+missing_for() {
+  apt-get --simulate install --no-install-recommends --allow-downgrades "$@" 2>/dev/null | awk '/^Inst/ { print $2 }'
 }
 
 fetch_debian libcpp-httplib-dev=0.11.4+ds-1+deb12u1 libcpp-httplib0.11=0.11.4+ds-1+deb12u1
@@ -46,22 +47,25 @@ cat >"$work/server.cpp" <<'CPP'
 #include <iostream>
 int main() {
   httplib::Server server;
-  server.Get("/image", [](const httplib::Request&, httplib::Response& answer) { answer.set_content("image", "image/png"); });
+  server.Get("/image", [](const httplib::Request&, httplib::Response& answer) {
+    answer.set_content("image", "image/png");
+  });
   std::cout << server.bind_to_any_port("127.0.0.1") << std::endl;
   server.listen_after_bind();
 }
 CPP
 # The three definitions are those of the package's own pkg-config file: the library was built with them.
-g++ -std=c++17 -DCPPHTTPLIB_OPENSSL_SUPPORT -DCPPHTTPLIB_ZLIB_SUPPORT -DCPPHTTPLIB_BROTLI_SUPPORT -isystem "$include" \
-  -isystem "$include/x86_64-linux-gnu" "$work/server.cpp" -L"$lib" -l:libcpp-httplib.so.0.11 -Wl,--allow-shlib-undefined \
-  -pthread -o "$work/server" || stop "the test server does not compile with the pinned header"
+g++ -std=c++17 -DCPPHTTPLIB_OPENSSL_SUPPORT -DCPPHTTPLIB_ZLIB_SUPPORT -DCPPHTTPLIB_BROTLI_SUPPORT \
+  -isystem "$include" -isystem "$include/x86_64-linux-gnu" "$work/server.cpp" \
+  -L"$lib" -l:libcpp-httplib.so.0.11 -Wl,--allow-shlib-undefined -pthread -o "$work/server" ||
+  stop "the test server does not compile with the pinned header"
 LD_LIBRARY_PATH=$lib "$work/server" >"$work/port" &
 server=$!
 for _ in {1..50}; do [[ -s $work/port ]] && break; sleep 0.1; done
 port=$(cat "$work/port")
 [[ -n $port ]] || stop "the test server did not start within 5 s"
 
-echo "Version: cpp-httplib $(grep -o 'CPPHTTPLIB_VERSION "[^"]*"' "$include/httplib.h")"
+echo "Version: cpp-httplib $(sed -n 's/.*CPPHTTPLIB_VERSION "\(.*\)".*/\1/p' "$include/httplib.h")"
 echo "Input: GET of five octets, sent once on a new connection; after 2 s the connection counts as kept."
 failed=0
 # check VERSION CONNECTION-FIELD FATE KEEP-ALIVE CLOSE: the last three are what is expected to be found.
@@ -75,7 +79,7 @@ check() {
   keep_alive=$(sed -n 's/^Keep-Alive: //p' <<<"$head")
   grep -qi '^Connection: close$' <<<"$head" && close=yes
   printf 'Seen: HTTP/%s, Connection: %-10s  %s, Keep-Alive "%s", says close: %s; connection %s\n' \
-    "$1" "${2:-(none)}" "$(sed 's/ .*//;q' <<<"$head")" "$keep_alive" "$close" "$fate"
+    "$1" "${2:-(none)}" "${head%% *}" "$keep_alive" "$close" "$fate"
   [[ $fate == "$3" && $keep_alive == "$4" && $close == "$5" ]] || failed=1
 }
 check 1.0 '' closed 'timeout=5, max=5' no

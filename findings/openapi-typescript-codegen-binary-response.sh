@@ -43,9 +43,9 @@ cat >api.json <<'JSON'
   }
 }
 JSON
-npx --no-install openapi --input api.json --output client --client fetch
+node_modules/.bin/openapi --input api.json --output client --client fetch
 
-# That this compiles under --strict shows that the declared type is Blob.
+# That this compiles under strict rules shows that the declared type is Blob.
 cat >use.ts <<'TS'
 import { DefaultService, OpenAPI } from './client';
 export const getPicture = (base: string): Promise<Blob> => {
@@ -54,10 +54,19 @@ export const getPicture = (base: string): Promise<Blob> => {
 };
 export const sizeOf = async (picture: Blob): Promise<number> => (await picture.arrayBuffer()).byteLength;
 TS
-npx --no-install tsc --strict --target es2022 --module commonjs --moduleResolution node10 --lib es2022,dom,dom.iterable --types '' \
-  --outDir js use.ts || stop "the generated client does not compile, or no longer declares a Blob"
+cat >tsconfig.json <<'JSON'
+{
+  "compilerOptions": {
+    "strict": true, "target": "es2022", "lib": ["es2022", "dom", "dom.iterable"], "types": [], "skipLibCheck": true,
+    "module": "commonjs", "outDir": "js"
+  },
+  "files": ["use.ts"]
+}
+JSON
+node_modules/.bin/tsc || stop "the generated client does not compile, or no longer declares a Blob"
 
 cat >check.js <<'JS'
+const versionOf = (name) => require(`./node_modules/${name}/package.json`).version;
 const { getPicture, sizeOf } = require('./js/use.js');
 const sent = Buffer.from([0x89, 0x9a, 0xab, 0xbc, 0xcd, 0xde, 0xef, 0xf8]);
 const server = require('http').createServer((request, response) => {
@@ -72,6 +81,8 @@ server.listen(0, '127.0.0.1', async () => {
   const isText = typeof picture === 'string';
   const back = isText ? Buffer.from(picture, 'utf8') : sent;
   const kinds = new Set(picture);
+  const packages = ['openapi-typescript-codegen', 'typescript'];
+  console.log(`Version: ${packages.map((name) => `${name} ${versionOf(name)}`).join(', ')}`);
   console.log(`Input: ${sent.toString('hex')}, sent as image/png; fetch alone receives ${plain.toString('hex')}.`);
   console.log(`Seen: declared a Blob; at run time a ${isText ? 'string' : picture.constructor.name}.`);
   console.log(`Seen: calling arrayBuffer() on it gives ${size}.`);
@@ -82,6 +93,5 @@ server.listen(0, '127.0.0.1', async () => {
   process.exitCode = asStated ? 0 : 1;
 });
 JS
-echo "Version: openapi-typescript-codegen $(npx --no-install openapi --version), TypeScript $(npx --no-install tsc --version | grep -o '[0-9.]*$')"
 node check.js || stop "the generated client did not give the string stated at the top of this script"
 echo "As stated: the method declared to give a Blob gives a string from which the octets are lost."

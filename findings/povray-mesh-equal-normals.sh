@@ -11,8 +11,8 @@
 # with the normal of its plane, and the given normals are dropped without a warning. The same triangle written as a lone
 # smooth_triangle keeps them, and so does the mesh if the normals differ by 1e-3.
 #
-# Why it matters to a user of a render server: cards for leaves and grass, and other flat stand-ins for round things, are
-# often given one shared normal so that they are lit like what they stand for. A mesh of such cards gets another
+# Why it matters to a user of a render server: cards for leaves and grass, and other flat stand-ins for round things,
+# are often given one shared normal so that they are lit like what they stand for. A mesh of such cards gets another
 # brightness in POV-Ray than the manual gives, so a comparison of pictures blames the wrong renderer.
 set -euo pipefail
 
@@ -22,16 +22,17 @@ stop() { echo "CHANGED OR UNTESTED: $*" >&2; exit 1; }
 
 # Takes the pinned packages, and those of their dependencies that this system lacks, without installing any.
 fetch_debian() {
-  local pin missing deb
-  for pin in "$@"; do
-    apt-cache madison "${pin%%=*}" 2>/dev/null | grep -qF " ${pin#*=} " || { apt-get update -qq; break; }
-  done
-  missing=$(apt-get --simulate install --no-install-recommends "$@" 2>/dev/null | awk '/^Inst/ { print $2 }')
+  local missing deb
+  missing=$(missing_for "$@") || { apt-get update -qq && missing=$(missing_for "$@"); } ||
+    stop "apt knows no way to install $*; the pinned version has to be one that Debian 12 offers"
   mkdir "$work/debs" "$work/root"
   # shellcheck disable=SC2086  # one word a package
   (cd "$work/debs" && apt-get -qq -o APT::Sandbox::User=root download "$@" $missing) ||
-    stop "the packages $* could not be downloaded; the pinned version has to be one that Debian 12 offers"
+    stop "the packages $* could not be downloaded"
   for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root"; done
+}
+missing_for() {
+  apt-get --simulate install --no-install-recommends --allow-downgrades "$@" 2>/dev/null | awk '/^Inst/ { print $2 }'
 }
 
 # Corner normals: 60 degrees from the direction to the light, told apart by $1 in y.
