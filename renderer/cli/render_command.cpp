@@ -78,11 +78,12 @@ Result<std::string> encode_error_map(const Render& render, const ViewPlan& plan,
 }
 
 std::string report_of(const Render& render, const ParsedScene& parsed, const CompiledScene& compiled,
-                      const ViewPlan& plan) {
+                      const ViewPlan& plan, ImageFormat format) {
   const Image& image = *render.image();
   const int64_t clamped = count_clamped(image, plan.view.image.exposure, ImageFormat::exr);
   auto warnings = parsed.warnings;
-  if (clamped > 0) warnings.push_back({"/image/exposure", "clamped", clamped_warning(clamped, ImageFormat::exr)});
+  if (clamped > 0 && format == ImageFormat::exr)
+    warnings.push_back({"/image/exposure", "clamped", clamped_warning(clamped, format)});
   const ReportIdentity identity{TILELIGHT_VERSION, parsed.scene_id,
                                 image_hash(image), find_rounding(parsed.scene, compiled, plan),
                                 clamped,           std::move(warnings)};
@@ -96,7 +97,10 @@ ExitCode write_results(const Render& render, const ParsedScene& parsed, const Co
   files.emplace_back(arguments.output, encode_picture(render, plan, arguments.output));
   if (!arguments.error_map.empty())
     files.emplace_back(arguments.error_map, encode_error_map(render, plan, arguments.error_map));
-  if (!arguments.report.empty()) files.emplace_back(arguments.report, report_of(render, parsed, compiled, plan));
+  if (!arguments.report.empty()) {
+    const ImageFormat format = *image_format_from_extension(arguments.output);
+    files.emplace_back(arguments.report, report_of(render, parsed, compiled, plan, format));
+  }
   if (is_interrupted()) return kInterrupted;
   print_warnings(arguments.output, report_warnings(render.report()));
   for (const auto& [path, bytes] : files)

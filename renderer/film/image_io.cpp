@@ -201,7 +201,7 @@ std::string clamped_warning(int64_t count, ImageFormat format) {
     return values +
            " of the picture cannot be held by a 32-bit float after exposure and became the nearest that can, " +
            "3.4e38 at most; a lower exposure keeps them";
-  return values + " of the picture are infinite and are shown as white";
+  return values + " of the picture are not finite; +infinity is shown as white, all else as black";
 }
 
 Result<Rgb8Image> decode_image(std::string_view bytes, ImageFormat format, int64_t max_pixels) {

@@ -10,7 +10,7 @@
 
 namespace tilelight {
 
-// The sine of the angle to the view under which an up vector says nothing: what rounding leaves of a right angle.
+// Up counts as along the view where the sine of the angle between them is smaller.
 inline constexpr double kUpAlongViewSine = 1e-10;
 
 // REQUIRES of both: camera.position != camera.target.

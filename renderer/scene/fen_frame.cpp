@@ -135,6 +135,8 @@ size_t stop_at(std::string_view text, size_t at) {
 ::tl::expected<std::string_view, std::string> skip_before_fen(std::string_view text,
                                                               std::vector<std::string>& left_out) {
   size_t at = skip_blanks_and_quotes(text, 0);
+  std::optional<size_t> first_name;  // where what is no label of ours begins, and behind the last of it
+  size_t names_end = 0;
   if (at < text.size() && text[at] == '[') return skip_before_tag(text.substr(at), left_out);
   while (at < text.size()) {
     size_t end = at;
@@ -145,9 +147,10 @@ size_t stop_at(std::string_view text, size_t at) {
     const bool has_colon =
         !word.empty() && (behind.starts_with(':') || behind.starts_with('=')) && !behind.starts_with("://");
     if (!has_colon && !(is_label(word) && blank_at(text, end) > 0)) break;
-    if (has_colon && !is_label(word)) left_out.push_back(in_quotes(text.substr(at, next + 1 - at)) + " is left out");
+    if (has_colon && !is_label(word)) first_name = first_name.value_or(at), names_end = next + 1;
     at = skip_blanks_and_quotes(text, has_colon ? next + 1 : next);
   }
+  if (first_name) left_out.push_back(in_quotes(text.substr(*first_name, names_end - *first_name)) + " is left out");
   if (at == text.size()) return ::tl::unexpected(std::string("found an empty position; allowed: a FEN"));
   return text.substr(at);
 }

@@ -28,7 +28,12 @@ void Problems::add_at(std::string pointer, bool at_key, Complaint complaint) {
 }
 
 void Problems::warn(Value value, std::string code, std::string detail) {
-  if (warnings_.size() < kMaxWarnings) warnings_.push_back({value.pointer(), std::move(code), std::move(detail)});
+  if (warnings_.size() == kMaxWarnings) return;
+  if (warnings_.size() + 1 == kMaxWarnings) {
+    code = "too_many_warnings";
+    detail = "more than " + std::to_string(kMaxWarnings - 1) + " warnings; this is the first not listed";
+  }
+  warnings_.push_back({value.pointer(), std::move(code), std::move(detail)});
 }
 
 SceneErrors Problems::take_errors(std::string_view text) {

@@ -30,7 +30,7 @@ bool any_material(const Subject& s, Holds holds) {
 template <class Holds>
 bool any_medium(const Subject& s, Holds holds) {
   return any_body(s, [&](const Body& body) {
-    return is_solid(body) && is_clear(material_of(s, body)) && holds(material_of(s, body));
+    return body.is_solid && is_clear(material_of(s, body)) && holds(material_of(s, body));
   });
 }
 

@@ -31,20 +31,6 @@ Box world_bounds(const Body& body) {
   return out;
 }
 
-bool is_solid(const Body& body) {
-  switch (body.kind) {
-    case BodyKind::sphere:
-      return true;
-    case BodyKind::box:
-      return body.half.x > 0.0 && body.half.y > 0.0 && body.half.z > 0.0;
-    case BodyKind::mesh:
-      return body.mesh->closed;
-    case BodyKind::plane:
-      return false;
-  }
-  return false;
-}
-
 PovSpace pov_space(const std::vector<Body>& bodies, const Camera& camera) {
   constexpr double kDetail = 10.0;   // of the smallest body, if all others allow it
   constexpr double kFarthest = 1e6;  // of the farthest body or the eye then

@@ -32,7 +32,5 @@ inline Vec3 corner_of(const Box& box, int corner) {
 }
 // The box of a body in the world; empty for a plane.
 Box world_bounds(const Body& body);
-// Whether the body has an inside that its material can fill.
-bool is_solid(const Body& body);
 
 }  // namespace tilelight

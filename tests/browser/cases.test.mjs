@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes and hands of outsiders: far from the origin, tiny, huge, from straight above; a wheel with Ctrl, a screen of
+// Scenes and gestures at the limits: far from the origin, tiny, huge, from straight above; a wheel with Ctrl, a screen of
 // another pixel ratio, views that are refused.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';

@@ -189,7 +189,11 @@ describe('linear values over 65,504, where half floats end', () => {
     assert.match(stderr, new RegExp(`bright\\.exr: warning: ${told} values .* 32-bit float`));
     const report = JSON.parse((await shell('cat bright-report.json', folder)).stdout);
     assert.equal(report.clamped, told);
-    assert.equal((await tilelight('render', path, '-o', join(folder, 'bright.png'))).stderr, '');
+    assert.deepEqual(report.warnings.map((warning) => warning.code), ['clamped']);
+    const shown = ['bright.png', '--report', 'shown.json'].map((name) => (name.startsWith('--') ? name : join(folder, name)));
+    assert.equal((await tilelight('render', path, '-o', ...shown)).stderr, '');
+    const { warnings } = JSON.parse((await shell('cat shown.json', folder)).stdout);
+    assert.deepEqual(warnings, [], 'a PNG shows them as white, as it shows all over 1');
   });
 
   test('are told where the light of one sample is more than a picture can sum', async () => {

@@ -27,7 +27,7 @@ async function pictureOf(scene, render, ...args) {
   return readPng(await readFile(file));
 }
 
-// The handed drum, of facets of 30 degrees, its plate `gap` sagittas over the facet and the eye between them.
+// The drum of plate-over-smooth-facet.json, of facets of 30 degrees, its plate `gap` sagittas over the facet and the eye between them.
 const kTop = 0.965925826;
 async function covered(gap, { elevation = 90, isOneMesh = false, terminator = 'smooth' } = {}) {
   const scene = await readJson('plate-over-smooth-facet.json');

@@ -90,13 +90,11 @@ TEST(Shells, OfASheetWithABackHoldNoVolume) {
   EXPECT_TRUE(find_inside_out(mesh, find_shells(mesh)).empty());
 }
 
-// A thousand shells inside each other, every other one a cavity: more than is looked at one by one ends all the same.
-TEST(Shells, ByTheThousandInsideEachOtherEnd) {
+// More than are looked at one by one, every other one a cavity: none is turned, for all are wound as they should be.
+TEST(Shells, ByTheThousandInsideEachOtherStay) {
   MeshData data;
   for (int i = 0; i < 3000; ++i) add_cube(data, Vec3(0.0), 1.0 + 0.001 * (3000 - i), i % 2 == 0);
-  const std::vector<int> turned = turned_by_cube(data);
-  EXPECT_EQ(turned[0], 0);
-  EXPECT_EQ(turned[1], 0);
+  EXPECT_EQ(turned_by_cube(data), std::vector(3000, 0));
 }
 
 TEST(Shells, TurnedKeepPlacesAndNormals) {

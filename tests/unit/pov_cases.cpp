@@ -171,6 +171,10 @@ std::vector<PovCase> of_materials() {
        on_plane(R"({"type": "box", "min": [-1, 0.2, 0.5], "max": [1, 2, 0.5], "material":
                     {"diffuse": [0.1, 0.3, 0.2], "specular": 0.4, "shininess": 20, "reflection": 0.2,
                      "transmission": [0.5, 0.4, 0.6]}})")},
+      {"transmission", "a sheet with a back, which holds nothing",
+       on_plane(
+           R"({"type": "mesh", "mesh": "sheet", "material": {"diffuse": 0, "transmission": [0.9, 0.5, 0.2], "ior": 1.5}})",
+           R"("meshes": {"sheet": {"positions": [-1,0.2,0.5, 1,0.2,0.5, 0,2,0.3], "indices": [0,1,2, 0,2,1]}})")},
       {"transmission", "a clear checker",
        on_plane(R"({"type": "box", "min": [-1, 0.2, 0.5], "max": [1, 2, 0.5], "material":
                     {"diffuse": {"checker": {"a": 0.5, "b": 0.1, "size": 0.5}}, "transmission": 0.5}})")},

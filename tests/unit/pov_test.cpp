@@ -162,7 +162,7 @@ TEST_F(PovRayItself, CountsEveryRayFromTheEye) {
   // 48 x 36 pixels in blocks of 32 x 32: one ray a pixel and one more for each pixel above and to the left of the four
   // blocks; nine more in every pixel.
   const double border = 2 * 48 + 2 * 36;
-  EXPECT_NEAR(povray.draw({.method = 1, .threshold = 0.0, .depth = 3}).spp, 10.0 + border / (48.0 * 36.0), 0.2);
+  EXPECT_NEAR(povray.draw({.method = 1, .threshold = 0.0, .depth = 3}).spp, 10.0 + border / (48.0 * 36.0), 0.03);
 }
 
 }  // namespace

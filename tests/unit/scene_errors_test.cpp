@@ -263,6 +263,15 @@ TEST(Errors, AreListedUpToABound) {
   EXPECT_EQ(errors.back().code, "too_many_errors");
 }
 
+TEST(Warnings, AreListedUpToABound) {
+  std::string objects = R"({"type": "sphere"})";
+  for (int i = 0; i < 3000; ++i) objects += R"(, {"type": "box", "min": [0, 0, 0], "max": [0, 0, 1]})";
+  const std::vector<SceneWarning> warnings = test::parsed(scene_of(objects)).warnings;
+  ASSERT_EQ(warnings.size(), 100u);
+  EXPECT_EQ(warnings[98].code, "empty_box");
+  EXPECT_EQ(warnings[99].code, "too_many_warnings");
+}
+
 // What was refused or never looked at is not read as if it were of the right kind: three numbers beyond the end of
 // none.
 TEST(Errors, LeaveTheRestOfWhatTheyRefuseAlone) {

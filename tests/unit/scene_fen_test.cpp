@@ -84,6 +84,7 @@ const Spelling kSpellings[] = {
     {"[fen \"" + kStart + "\"]\r\n", ""},
     {"regular:" + kStart + " w KQkq - 0 1", "\"regular:\" is left out"},
     {"3check: " + kStart, "\"3check:\" is left out"},
+    {"a: b: fen: c = " + kStart, "\"a: b: fen: c =\" is left out"},
     {kStart + "[] w KQkq - 0 1", "the pocket \"[]\" is left out"},
     {kStart + "[-] w KQkq - 0 1", "the pocket \"[-]\" is left out"},
     {kStart + "[Qp]", "the pocket \"[Qp]\" is left out"},

@@ -105,6 +105,8 @@ struct Facet {
   }
 };
 
+constexpr double kPlateHeight = 1e-3;
+
 // A facet of the ball straight under the light, and under a plate `gap` over it or none; seen from beneath the plate.
 bool is_lit(const Context& context, const MeshData& ball, const Facet& facet, double gap, bool has_plate) {
   ParsedScene parsed = lit_ball(1, true, Terminator::smooth, true);
@@ -112,7 +114,7 @@ bool is_lit(const Context& context, const MeshData& ball, const Facet& facet, do
   parsed.scene.lights[0].direction = -facet.out;
   const Vec3 x = glm::normalize(facet.corner[1] - facet.corner[0]);
   Object plate = parsed.scene.objects[0];
-  plate.shape = BoxShape{{-0.02, gap, -0.02}, {0.02, gap + 1e-3, 0.02}};
+  plate.shape = BoxShape{{-0.02, gap, -0.02}, {0.02, gap + kPlateHeight, 0.02}};
   plate.world_from_shape[0] = Vec4(x, 0.0), plate.world_from_shape[1] = Vec4(facet.out, 0.0);
   plate.world_from_shape[2] = Vec4(glm::cross(x, facet.out), 0.0), plate.world_from_shape[3] = Vec4(facet.middle, 1.0);
   if (has_plate) parsed.scene.objects.push_back(plate);
@@ -133,8 +135,9 @@ Outcome contact_on_curve(const Context& context) {
     const Facet facet(ball, triangle);
     ++facets, free += is_lit(context, ball, facet, facet.lift(), false);
     for (const double part : {1e-6, 1e-3, 0.1, 0.5, 0.9, 1.1}) {  // of the offset
-      lit += is_lit(context, ball, facet, part * facet.lift(), true);
-      lit_by_offset += part < 1.0;
+      const double gap = part * facet.lift();
+      lit += is_lit(context, ball, facet, gap, true);
+      lit_by_offset += facet.lift() > gap + kPlateHeight;  // a shadow ray that starts so high starts over the plate
     }
   }
   const char* what = "facets lit under a plate";
