@@ -97,8 +97,9 @@ App::App(Config config, const Clock& clock)
       keys_(clock),
       waits_(config_.max_waiting),
       streams_(config_.max_streams),
-      services_{config_,   log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,     *jobs_,
-                pictures_, sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
+      descriptions_(make_descriptions(config_)),
+      services_{config_,   log_,      metrics_, pool_,  scenes_,  *compiled_,    *queue_, *jobs_,
+                pictures_, sessions_, keys_,    waits_, streams_, descriptions_, clock,   is_stopping_} {}
 
 void App::add_gauges() {
   metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",
