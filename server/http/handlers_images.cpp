@@ -138,6 +138,7 @@ Reply get_scene_image(Services& services, const Request& request) {
   const auto format = scene_image_format(request, *view);
   if (!format) return ::tl::unexpected(format.error());
   const std::string etag = scene_image_etag(scene, *view, *format);
+  // Before anything is rendered; of other GETs route() holds it against the answer.
   if (!is_match_met(request, {true, etag})) return ::tl::unexpected<Problem>(precondition_failed({true, etag}));
   if (has_current(request, etag)) return for_caches(empty_response(304), request, etag);
   if (const auto kept = services.pictures.find(etag)) {
