@@ -44,7 +44,8 @@ FrontOptions admin_options(const Config& config) {
   return options;
 }
 
-// Listens on the first of the host's addresses that is to be had. flag: which port to change where there is none.
+// Listens on the first of the host's addresses that this machine has. Not on the next where that one is in use: clients
+// that try the addresses in their order would reach whoever uses it. flag: which port to change.
 Result<std::unique_ptr<HttpServer>> bind_first(const std::vector<std::string>& addresses, const std::string& host,
                                                FrontOptions options, const std::vector<Route>& routes,
                                                Services& services, const std::string& flag) {
@@ -54,8 +55,9 @@ Result<std::unique_ptr<HttpServer>> bind_first(const std::vector<std::string>& a
     auto server = HttpServer::bind(options, routes, services);
     if (server) return server;
     error = server.error();
+    if (error.code != "no_address") break;
   }
-  return fail(error.code, error.detail + " (" + flag + ")");
+  return fail("bind", error.detail + " (" + flag + ")");
 }
 
 std::string url_of(const std::string& host, const std::vector<std::string>& addresses, int port) {
@@ -95,8 +97,9 @@ App::App(Config config, const Clock& clock)
       keys_(clock),
       waits_(config_.max_waiting),
       streams_(config_.max_streams),
-      services_{config_,   log_,      metrics_, pool_,  scenes_,  *compiled_, *queue_,     *jobs_,
-                pictures_, sessions_, keys_,    waits_, streams_, clock,      is_stopping_} {}
+      descriptions_(make_descriptions(config_)),
+      services_{config_,   log_,      metrics_, pool_,  scenes_,  *compiled_,    *queue_, *jobs_,
+                pictures_, sessions_, keys_,    waits_, streams_, descriptions_, clock,   is_stopping_} {}
 
 void App::add_gauges() {
   metrics_.gauge("tilelight_renders_queued", "Renders that wait for their start.",

@@ -50,6 +50,7 @@ class App {
   Sessions sessions_;
   IdempotencyKeys keys_;
   WaitSlots waits_, streams_;
+  const Descriptions descriptions_;
   Services services_;
   std::unique_ptr<HttpServer> http_, admin_;
   std::jthread housekeeper_;

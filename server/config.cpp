@@ -195,7 +195,7 @@ const std::vector<Setting>& settings() {
        set_allowed_hosts},
       {"trusted-proxy", "ADDRESSES",
        "addresses and networks (10.0.0.0/8) of proxies whose X-Forwarded-For, -Proto, -Host and -Prefix count, with "
-       "commas [none]",
+       "commas; they must set or delete all four [none]",
        set_trusted_proxies},
       {"threads", "N", "render threads; 0: one a hardware thread [0]", number(&Config::threads, 0, 1024)},
       {"max-queue", "N", "renders that may wait for their start; more are answered 503 [256]",

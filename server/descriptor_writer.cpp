@@ -44,17 +44,17 @@ int open_anew(int fd) {
 
 DescriptorWriter::DescriptorWriter(int fd)
     : fd_(fd),
-      own_(open_anew(fd)),
+      nonblocking_fd_(open_anew(fd)),
       may_write_(may_write(fd)),
       is_socket_(is_kind(fd, S_IFSOCK)),
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
 DescriptorWriter::~DescriptorWriter() {
-  if (own_ >= 0) close(own_);
+  if (nonblocking_fd_ >= 0) close(nonblocking_fd_);
   if (wake_ >= 0) close(wake_);
 }
 
-void DescriptorWriter::limit(double ms) {
+void DescriptorWriter::limit_wait_ms(double ms) {
   deadline_ms_.store(now_ms() + static_cast<int64_t>(ms), std::memory_order_release);
   if (wake_ >= 0) eventfd_write(wake_, 1);
 }
@@ -64,7 +64,7 @@ bool DescriptorWriter::wait_writable() {
     const int64_t deadline_ms = deadline_ms_.load(std::memory_order_acquire);
     const int64_t left_ms = deadline_ms == kNever ? -1 : std::max<int64_t>(0, deadline_ms - now_ms());
     // The event stays set, so it is asked only until there is a limit.
-    pollfd asked[] = {{own_ >= 0 ? own_ : fd_, POLLOUT, 0}, {wake_, POLLIN, 0}};
+    pollfd asked[] = {{nonblocking_fd_ >= 0 ? nonblocking_fd_ : fd_, POLLOUT, 0}, {wake_, POLLIN, 0}};
     const int found = poll(asked, deadline_ms == kNever ? 2 : 1, static_cast<int>(std::min<int64_t>(left_ms, INT_MAX)));
     if (found < 0 && errno != EINTR) return false;
     if (found > 0 && asked[0].revents != 0) return true;  // also where there is an error, which writing tells
@@ -79,7 +79,7 @@ bool DescriptorWriter::write(std::string_view bytes) {
     // Where the descriptor blocks, this much fits at once once poll says that something does.
     const size_t size = std::min<size_t>(bytes.size(), PIPE_BUF);
     const ssize_t written = is_socket_ ? send(fd_, bytes.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL)
-                                       : ::write(own_ >= 0 ? own_ : fd_, bytes.data(), size);
+                                       : ::write(nonblocking_fd_ >= 0 ? nonblocking_fd_ : fd_, bytes.data(), size);
     if (written >= 0) {
       bytes.remove_prefix(static_cast<size_t>(written));
     } else if (errno != EAGAIN && errno != EINTR) {

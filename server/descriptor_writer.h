@@ -20,16 +20,16 @@ class DescriptorWriter {
   // False, with errno: not all could be written. Waits until the limit, without one for ever.
   bool write(std::string_view bytes);
   // All that is written from now on waits `ms` at most, together; what waits now is told. ETIMEDOUT after that.
-  void limit(double ms);
+  void limit_wait_ms(double ms);
 
  private:
   bool wait_writable();
 
   const int fd_;
-  const int own_;  // of the same file, non-blocking, or -1 where there is none to be had
+  const int nonblocking_fd_;  // of the same file; -1 where there is none to be had
   const bool may_write_, is_socket_;
   const int wake_;                             // an eventfd: there is a limit
-  std::atomic<int64_t> deadline_ms_ = kNever;  // steady clock; release by limit(), acquire by the writer
+  std::atomic<int64_t> deadline_ms_ = kNever;  // steady clock; release by limit_wait_ms(), acquire by the writer
   static constexpr int64_t kNever = INT64_MAX;
 };
 

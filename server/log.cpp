@@ -50,7 +50,7 @@ class Log::Sink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
 
   // Of the queue, by which it tells what was dropped there.
   void watch(std::function<size_t()> overrun) { overrun_ = std::move(overrun); }
-  void limit(double ms) { out_.limit(ms); }
+  void limit_wait_ms(double ms) { out_.limit_wait_ms(ms); }
   int64_t lost() const { return lost_.load(std::memory_order_relaxed); }
   void note_lost() { lost_.fetch_add(1, std::memory_order_relaxed); }
 
@@ -64,10 +64,10 @@ class Log::Sink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
  private:
   void tell_dropped() {
     const int64_t dropped = lost() + static_cast<int64_t>(overrun_());
-    if (dropped == told_) return;
-    const std::string line =
-        line_of(as_json_, LogLevel::warn, "log_lines_dropped", {{"count", dropped - told_}, {"total", dropped}});
-    if (put({"", spdlog::level::warn, line})) told_ = dropped;
+    if (dropped == reported_drops_) return;
+    const std::string line = line_of(as_json_, LogLevel::warn, "log_lines_dropped",
+                                     {{"count", dropped - reported_drops_}, {"total", dropped}});
+    if (put({"", spdlog::level::warn, line})) reported_drops_ = dropped;
   }
 
   bool put(const spdlog::details::log_msg& message) {
@@ -86,7 +86,7 @@ class Log::Sink final : public spdlog::sinks::base_sink<spdlog::details::null_mu
   DescriptorWriter out_;
   std::function<size_t()> overrun_;
   std::atomic<int64_t> lost_ = 0;  // relaxed: a count
-  int64_t told_ = 0;               // of all that were dropped
+  int64_t reported_drops_ = 0;
 };
 
 Log::Log(const std::string& level, bool as_json, LogOptions options)
@@ -104,7 +104,7 @@ Log::Log(const std::string& level, bool as_json, LogOptions options)
 }
 
 Log::~Log() {
-  sink_->limit(flush_ms_);
+  sink_->limit_wait_ms(flush_ms_);
   writer_.reset();  // writes what waits, or drops it once the time is over, and ends its thread
 }
 

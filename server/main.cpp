@@ -36,15 +36,15 @@ void keep_freed_memory() {
 }
 
 // False, with errno: it could not be written, or nobody has read it for seconds.
-bool say(int descriptor, const std::string& text) {
+bool write_text(int descriptor, const std::string& text) {
   constexpr double kPatienceMs = 5'000.0;
   DescriptorWriter writer(descriptor);
-  writer.limit(kPatienceMs);
+  writer.limit_wait_ms(kPatienceMs);
   return writer.write(text);
 }
 
-int complain(int code, const std::string& what) {
-  say(STDERR_FILENO, printable_lines("tilelightd: " + what) + "\n");
+int exit_with_error(int code, const std::string& what) {
+  write_text(STDERR_FILENO, printable_lines("tilelightd: " + what) + "\n");
   return code;
 }
 
@@ -61,14 +61,14 @@ int run(int argc, const char* const* argv) {
   keep_freed_memory();
 
   const auto request = load_config(argc, argv, process_environment());
-  if (!request) return complain(2, request.error().detail);
+  if (!request) return exit_with_error(2, request.error().detail);
   if (request->help_or_version) {
-    if (say(STDOUT_FILENO, request->text)) return 0;
-    return complain(1, std::string("cannot write standard output: ") + std::strerror(errno));
+    if (write_text(STDOUT_FILENO, request->text)) return 0;
+    return exit_with_error(1, std::string("cannot write standard output: ") + std::strerror(errno));
   }
   const SystemClock clock;
   auto app = App::open(request->config, clock);
-  if (!app) return complain(1, app.error().detail);
+  if (!app) return exit_with_error(1, app.error().detail);
   (*app)->start();
   const Log& log = (*app)->log();
   const Config& config = request->config;
@@ -77,7 +77,7 @@ int run(int argc, const char* const* argv) {
               {{"host", config.host}, {"detail", "whoever reaches this address may render: there are no keys"}});
   }
   const std::string url = (*app)->url(), admin_url = (*app)->admin_url();
-  if (!say(STDOUT_FILENO, "Tilelight is at " + url + "\nHealth and metrics are at " + admin_url + "metrics\n")) {
+  if (!write_text(STDOUT_FILENO, "Tilelight is at " + url + "\nHealth and metrics are at " + admin_url + "metrics\n")) {
     log.write(LogLevel::warn, "unannounced",
               {{"url", url}, {"admin", admin_url}, {"cause", std::string("standard output: ") + std::strerror(errno)}});
   }
@@ -97,6 +97,6 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {  // what the machine refuses before a request comes: threads, memory
-    return complain(1, std::string("cannot start: ") + error.what());
+    return exit_with_error(1, std::string("cannot start: ") + error.what());
   }
 }

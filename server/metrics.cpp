@@ -36,14 +36,18 @@ void header(std::string& out, std::string_view name, std::string_view help, std:
 
 void Metrics::add(std::string_view name, std::string_view labels, double amount) {
   const std::lock_guard lock(mutex_);
-  counters_[std::string(name)][std::string(labels)] += amount;
+  auto counter = counters_.find(name);
+  if (counter == counters_.end()) counter = counters_.try_emplace(std::string(name)).first;
+  auto cell = counter->second.find(labels);
+  if (cell == counter->second.end()) cell = counter->second.try_emplace(std::string(labels)).first;
+  cell->second += amount;
 }
 
 double Metrics::value(std::string_view name, std::string_view labels) const {
   const std::lock_guard lock(mutex_);
-  const auto counter = counters_.find(std::string(name));
+  const auto counter = counters_.find(name);
   if (counter == counters_.end()) return 0.0;
-  const auto cell = counter->second.find(std::string(labels));
+  const auto cell = counter->second.find(labels);
   return cell == counter->second.end() ? 0.0 : cell->second;
 }
 

@@ -15,7 +15,8 @@ namespace tilelight::server {
 
 class Metrics {
  public:
-  // Adds to a counter. `labels` is the inside of the braces, e.g. `state="done"`; empty for none.
+  // Adds to a counter. `labels` is the inside of the braces, e.g. `state="done"`; empty for none. Takes no memory where
+  // something was added before.
   void add(std::string_view name, std::string_view labels, double amount = 1.0);
   double value(std::string_view name, std::string_view labels) const;  // 0 where nothing was added
 
@@ -34,8 +35,10 @@ class Metrics {
     std::function<double()> read;
   };
 
-  mutable std::mutex mutex_;                                       // guards all below; never held while a gauge is read
-  std::map<std::string, std::map<std::string, double>> counters_;  // name -> labels -> value
+  using Cells = std::map<std::string, double, std::less<>>;  // labels -> value
+
+  mutable std::mutex mutex_;                            // guards all below; never held while a gauge is read
+  std::map<std::string, Cells, std::less<>> counters_;  // by name
   std::vector<Gauge> gauges_;
   std::array<uint64_t, kBucketsMs.size() + 1> requests_{};  // the last: longer than all
   double request_sum_ms_ = 0.0;

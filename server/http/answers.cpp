@@ -64,10 +64,15 @@ double wait_seconds(const Services& services, const Request& request, double def
 
 namespace {
 
-// "wait=40", or nothing where the client asked for no wait.
+// "wait=40", "wait=0.4", or nothing where the client asked for no wait.
 std::string granted_wait(const Services& services, const Request& request) {
   if (!read_preferences(request).wait_s) return {};
-  return "wait=" + std::to_string(static_cast<int>(wait_seconds(services, request, 0.0)));
+  char text[32];
+  std::snprintf(text, sizeof text, "wait=%.3f", wait_seconds(services, request, 0.0));
+  std::string wait = text;
+  wait.erase(wait.find_last_not_of('0') + 1);
+  if (wait.back() == '.') wait.pop_back();
+  return wait;
 }
 
 // Of a 202, where respond-async counts too.

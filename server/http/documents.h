@@ -30,8 +30,16 @@ std::string plan_document(std::string_view scene_id, const std::vector<SceneWarn
 std::string session_document(std::string_view id, std::string_view scene_id, const std::vector<SceneWarning>& warnings,
                              const ViewPlan& plan);
 std::string limits_document(const Config& config);
-// The description of the API with the scene language in it, so that it needs no other document.
-std::string openapi_document(const Config& config, std::string_view prefix);
 std::string version_document(int threads);
+
+// What the server says of itself at length. Made once, since it takes milliseconds.
+struct Descriptions {
+  std::string scene_schema;
+  // The description of the API with the scene language in it, so that it needs no other document. Between its halves
+  // stands the server's address as the client sees it.
+  std::string openapi_before_url, openapi_after_url;
+  std::string openapi_hash;  // of both
+};
+Descriptions make_descriptions(const Config& config);
 
 }  // namespace tilelight::server

@@ -20,10 +20,10 @@ Json warnings_of(const std::vector<SceneWarning>& read, const Plan& plan = {}) {
   return Json::parse(warnings_json(read, plan.warnings));
 }
 
-// Of reading the scene, and of what an EXR of the picture cannot hold.
+// Of reading the scene, and, of a job whose picture is an EXR, of what that cannot hold.
 std::vector<SceneWarning> warnings_beside_plan(const JobRecord& record) {
   std::vector<SceneWarning> warnings = record.warnings;
-  const int64_t clamped = record.status.clamped.value_or(0);
+  const int64_t clamped = record.format == ImageFormat::exr ? record.status.clamped.value_or(0) : 0;
   if (clamped > 0) warnings.push_back({"/image/exposure", "clamped", clamped_warning(clamped, ImageFormat::exr)});
   return warnings;
 }

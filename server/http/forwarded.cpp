@@ -52,7 +52,7 @@ std::optional<std::string> parse_prefix(std::string_view text) {
 }  // namespace
 
 void believe_proxies(Request& request, const std::vector<Network>& trusted) {
-  request.host = request.header("Host").value_or("");
+  request.host = parse_authority(request.header("Host").value_or("")).value_or(Authority{});
   const auto peer = parse_address(std::string_view(request.client).substr(0, request.client.find('%')));
   if (!peer || !is_trusted(*peer, trusted)) return;
   const auto hops = values_from_right(request, "X-Forwarded-For");
@@ -67,8 +67,7 @@ void believe_proxies(Request& request, const std::vector<Network>& trusted) {
   for (const char* known : {"http", "https"}) {
     if (is_same_name(scheme, known)) request.scheme = known;
   }
-  const std::string host = value_at(request, "X-Forwarded-Host", place);
-  if (parse_authority(host)) request.host = host;
+  if (auto host = parse_authority(value_at(request, "X-Forwarded-Host", place))) request.host = std::move(*host);
   request.prefix = parse_prefix(value_at(request, "X-Forwarded-Prefix", place)).value_or("");
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/front.h"
 
-#include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -10,7 +9,6 @@
 #include <cmath>
 
 #include "server/clock.h"
-#include "server/http/listener.h"
 
 namespace tilelight::server {
 namespace {
@@ -72,12 +70,13 @@ void Front::run_worker() {
     std::unique_lock lock(mutex_);
     has_work_.wait(lock, [&] { return workers_end_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const auto exchange = std::move(waiting_.front());
-    waiting_.pop_front();
+    std::list<std::shared_ptr<Exchange>> mine;
+    mine.splice(mine.end(), waiting_, waiting_.begin());
     lock.unlock();
-    Served served = serve_(*exchange);
+    Exchange& exchange = *mine.front();
+    exchange.answer = serve_(exchange);
     lock.lock();
-    finished_.push_back({exchange->connection, std::move(served)});
+    finished_.splice(finished_.end(), mine);
     lock.unlock();
     eventfd_write(wake_, 1);
   }
@@ -90,30 +89,11 @@ void Front::run_loop() {
     // What came before the stop and has not been looked at is answered too: the loop ends at a look that finds nothing.
     const bool may_end = is_stopping_.load(std::memory_order_acquire) && is_drained();
     const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), may_end ? 0 : kTickMs);
-    for (int i = 0; i < count; ++i) {
-      const uint64_t id = events[static_cast<size_t>(i)].data.u64;
-      if (id == kListenerId) {
-        accept_all();
-      } else if (id == kWakeId) {
-        eventfd_t ignored;
-        eventfd_read(wake_, &ignored);
-        take_finished();
-      } else {
-        try {
-          handle_event(id, events[static_cast<size_t>(i)].events);
-        } catch (const std::bad_alloc&) {  // its request or answer has no room; the others go on
-          if (connections_.contains(id)) close_connection(id);
-        }
-      }
-      drop_largest_bodies();
-    }
+    for (int i = 0; i < count; ++i) take_event(events[static_cast<size_t>(i)]);
     unread_bytes_.store(unread_.bytes(), std::memory_order_relaxed);
     const double now = now_ms();
     if (now >= next_check_ms) {
-      check_deadlines();
-      pump_streams();
-      probe_half_closed();
-      set_accepting(true);
+      check_all();
       next_check_ms = now + kTickMs;
     }
     if (is_stopping_.load(std::memory_order_acquire)) {
@@ -122,6 +102,31 @@ void Front::run_loop() {
     }
   }
   while (!connections_.empty()) close_connection(connections_.begin()->first);
+}
+
+void Front::take_event(const epoll_event& event) {
+  const uint64_t id = event.data.u64;
+  if (id == kListenerId) {
+    accept_all();
+  } else if (id == kWakeId) {
+    eventfd_t ignored;
+    eventfd_read(wake_, &ignored);
+    take_finished();
+  } else {
+    with_connection(id, [&](Connection& c) { handle_event(c, event.events); });
+  }
+  drop_largest_bodies();
+}
+
+void Front::check_all() {
+  try {
+    check_deadlines();
+    pump_streams();
+    probe_half_closed();
+  } catch (const std::bad_alloc&) {
+    // No memory for a list of the connections that are due; they are still due at the next tick.
+  }
+  set_accepting(true);
 }
 
 bool Front::is_drained() const {
@@ -150,20 +155,29 @@ void Front::accept_all() {
       if (make_room()) continue;
       return set_accepting(false);
     }
-    auto c = std::make_unique<Connection>();
-    c->id = next_id_++;
-    c->fd = peer->fd;
-    c->client = std::move(peer->address);
-    c->since_ms = now_ms();
-    c->deadline_ms = c->since_ms + options_.head_timeout_ms;
-    c->events = EPOLLIN | EPOLLRDHUP;
-    epoll_event event{};
-    event.events = c->events;
-    event.data.u64 = c->id;
-    epoll_ctl(epoll_, EPOLL_CTL_ADD, c->fd, &event);
-    connections_.emplace(c->id, std::move(c));
-    connection_count_.store(connections_.size(), std::memory_order_relaxed);
+    try {
+      add_connection(std::move(*peer));
+    } catch (const std::bad_alloc&) {
+      ::close(peer->fd);
+      return set_accepting(false);
+    }
   }
+}
+
+void Front::add_connection(Peer&& peer) {
+  const uint64_t id = next_id_++;
+  Connection& c = *connections_.emplace(id, std::make_unique<Connection>()).first->second;
+  c.id = id;
+  c.fd = peer.fd;
+  c.client = std::move(peer.address);
+  c.since_ms = now_ms();
+  c.deadline_ms = c.since_ms + options_.head_timeout_ms;
+  c.events = EPOLLIN | EPOLLRDHUP;
+  epoll_event event{};
+  event.events = c.events;
+  event.data.u64 = id;
+  epoll_ctl(epoll_, EPOLL_CTL_ADD, c.fd, &event);
+  connection_count_.store(connections_.size(), std::memory_order_relaxed);
 }
 
 // Full: the connection that has kept us waiting longest for a request goes. False: all are being served.
@@ -177,14 +191,11 @@ bool Front::make_room() {
   return oldest != nullptr;
 }
 
-void Front::handle_event(uint64_t id, uint32_t events) {
-  const auto found = connections_.find(id);
-  if (found == connections_.end()) return;  // closed by an event before this one
-  Connection& c = *found->second;
-  // Where both sides have ended their sending, what the client sent before is still to be taken: a socket closed over
-  // it would reset the connection under the answer.
+void Front::handle_event(Connection& c, uint32_t events) {
+  // Where both sides have ended their sending: read the client's unread bytes first; closing over them would reset the
+  // connection and lose the answer.
   const bool has_left = (events & EPOLLERR) || ((events & EPOLLHUP) && c.phase != Phase::closing);
-  if (has_left) return close_connection(id);
+  if (has_left) return close_connection(c.id);
   switch (c.phase) {
     case Phase::reading:
       return read_some(c);
@@ -257,7 +268,7 @@ void Front::hand_over(Connection& c) {
   buffered_bytes_ -= static_cast<int64_t>(end - body_bytes);  // the body counts until it is answered
   c.head.reset();
   c.has_skipped_line = false;
-  c.ahead = 0;
+  c.bytes_sent_ahead = 0;
   c.half_closed_ms = 0.0;
   c.phase = Phase::serving;
   c.deadline_ms = INFINITY;
@@ -271,18 +282,17 @@ void Front::hand_over(Connection& c) {
 }
 
 void Front::take_finished() {
-  std::vector<Finished> finished;
+  std::list<std::shared_ptr<Exchange>> finished;
   {
     const std::lock_guard lock(mutex_);
     finished.swap(finished_);
   }
-  for (Finished& done : finished) {
-    const auto found = connections_.find(done.connection);
-    if (found == connections_.end()) continue;  // the client left
-    Connection& c = *found->second;
-    buffered_bytes_ -= static_cast<int64_t>(c.exchange->body.size());
-    c.exchange = nullptr;
-    begin_write(c, std::move(done.served));
+  for (const auto& exchange : finished) {
+    with_connection(exchange->connection, [&](Connection& c) {
+      buffered_bytes_ -= static_cast<int64_t>(exchange->body.size());
+      c.exchange = nullptr;
+      begin_write(c, std::move(exchange->answer));
+    });
   }
 }
 
@@ -294,14 +304,16 @@ void Front::refuse(Connection& c, const Problem& problem) {
 // must not be the reason to refuse the next.
 void Front::drop_largest_bodies() {
   while (buffered_bytes_ > options_.max_buffered_bytes) {
-    Connection* largest = nullptr;
+    const Connection* largest = nullptr;
     for (const auto& [id, c] : connections_) {
       if (c->phase != Phase::reading || c->in.size() < kSmallBytes) continue;
       const auto rank = [](const Connection& it) { return std::pair(it.in.size(), -it.since_ms); };
       if (!largest || rank(*c) > rank(*largest)) largest = c.get();
     }
     if (!largest) return;
-    refuse(*largest, Problem{503, "memory", "too many large bodies are arriving at once", {}, {{"Retry-After", "1"}}});
+    with_connection(largest->id, [&](Connection& c) {
+      refuse(c, Problem{503, "memory", "too many large bodies are arriving at once", {}, {{"Retry-After", "1"}}});
+    });
   }
 }
 
@@ -312,12 +324,10 @@ void Front::check_deadlines() {
     if (now >= c->deadline_ms) late.push_back(id);
   }
   for (const uint64_t id : late) {
-    Connection& c = *connections_.at(id);
-    if (c.phase == Phase::reading && !c.in.empty()) {
+    with_connection(id, [&](Connection& c) {
+      if (c.phase != Phase::reading || c.in.empty()) return close_connection(id);
       refuse(c, Problem{408, "timeout", "the request did not arrive in time", {}, {}});
-    } else {
-      close_connection(id);
-    }
+    });
   }
 }
 

@@ -3,7 +3,8 @@
 // time, memory and number, and writes responses; only a complete request takes a worker. So slow clients cost memory
 // that is capped, and never a thread: over the cap those go that hold most of it, and not those that come next.
 // Pipelined requests are answered one after the other. A response may be a stream: it takes no worker, is asked for its
-// next piece at each tick once the last has been taken, and so holds one piece for a slow reader and never more.
+// next piece at each tick once the last has been taken, and so holds one piece for a slow reader and never more. Where
+// memory is too short for a connection, it is closed, and the others go on.
 //
 // A client that shuts down its sending side waits for its answers (RFC 9112, 6.3) and gets them. One that has closed
 // its connection looks the same until something is sent to it, which it answers with a reset. So while a worker has the
@@ -12,13 +13,16 @@
 // keep-alive probes, cancel the request.
 #pragma once
 
+#include <sys/epoll.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
+#include <list>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -26,6 +30,7 @@
 #include <vector>
 
 #include "server/http/head.h"
+#include "server/http/listener.h"
 #include "server/http/protocol.h"
 #include "server/http/unread.h"
 
@@ -38,6 +43,7 @@ struct Exchange {
   std::string body;
   std::string client;     // the peer's address
   std::stop_source gone;  // asked to stop when the client has left
+  Served answer;          // once it is served
 };
 
 struct FrontOptions {
@@ -58,7 +64,7 @@ struct FrontOptions {
 
 class Front {
  public:
-  // Runs a complete request; called by workers.
+  // Runs a complete request; called by workers. Must not throw.
   using Serve = std::function<Served(Exchange&)>;
   // The whole response to a request refused before it was complete; called by the socket thread.
   using Refuse = std::function<Served(const Problem&, const std::string& client, bool is_head)>;
@@ -90,25 +96,23 @@ class Front {
     size_t written = 0;
     std::optional<Head> head;
     bool close_after = false, has_continued = false, has_skipped_line = false;
-    size_t ahead = 0;             // bytes of the response that were sent before it was there
+    size_t bytes_sent_ahead = 0;  // of the response, before it was there
     double half_closed_ms = 0.0;  // while it is being served: when its client ended its sending; 0: it has not
     double probe_at_ms = 0.0;
     double since_ms = 0.0;  // when its request, its response or its idleness began
     double deadline_ms = 0.0;
     std::shared_ptr<Exchange> exchange;
   };
-  struct Finished {
-    uint64_t connection;
-    Served served;
-  };
-
   Front(FrontOptions options, Serve serve, Refuse refuse);
   static double now_ms();
   void run_loop();
+  void take_event(const epoll_event& event);
+  void check_all();
   void run_worker();
   void set_accepting(bool on);
   void accept_all();
-  void handle_event(uint64_t id, uint32_t events);
+  void add_connection(Peer&& peer);
+  void handle_event(Connection& c, uint32_t events);
   void read_some(Connection& c);
   void advance(Connection& c);  // from bytes to a request
   void await_body(Connection& c);
@@ -129,6 +133,18 @@ class Front {
   void watch(Connection& c, uint32_t events);
   void close_connection(uint64_t id);
   bool is_drained() const;
+
+  // Acts on the connection, if it is still there, and closes it where memory is too short for that.
+  template <class Act>
+  void with_connection(uint64_t id, Act act) {
+    const auto found = connections_.find(id);
+    if (found == connections_.end()) return;
+    try {
+      act(*found->second);
+    } catch (const std::bad_alloc&) {
+      if (connections_.contains(id)) close_connection(id);
+    }
+  }
 
   // Constant after construction.
   const FrontOptions options_;
@@ -151,8 +167,8 @@ class Front {
 
   std::mutex mutex_;  // guards the rest
   std::condition_variable has_work_;
-  std::deque<std::shared_ptr<Exchange>> waiting_;
-  std::vector<Finished> finished_;
+  // Lists, whose nodes workers move from the one to the other: to hand over an answer takes no memory.
+  std::list<std::shared_ptr<Exchange>> waiting_, finished_;
   bool workers_end_ = false;
 
   std::vector<std::thread> workers_;

@@ -68,7 +68,7 @@ void Front::begin_write(Connection& c, Served response) {
   }
   c.phase = Phase::writing;
   c.out = std::move(response);
-  c.written = std::exchange(c.ahead, 0);
+  c.written = std::exchange(c.bytes_sent_ahead, 0);
   c.close_after = c.out.close;
   if (c.close_after) {  // what else it sends is not read
     buffered_bytes_ -= static_cast<int64_t>(c.in.size());
@@ -120,20 +120,22 @@ void Front::end_write(Connection& c) {
 }
 
 void Front::pump_streams() {
-  std::vector<Connection*> ready;  // writing may close a connection, and so change the map
+  std::vector<uint64_t> ready;  // writing may close a connection, and so change the map
   for (const auto& [id, c] : connections_) {
-    if (c->phase == Phase::streaming) ready.push_back(c.get());
+    if (c->phase == Phase::streaming) ready.push_back(id);
   }
-  for (Connection* c : ready) {
-    pull(c->out);
-    if (c->out.bytes.empty() && c->out.stream) continue;
-    unread_.add(c->out);
-    c->phase = Phase::writing;
-    c->written = 0;
-    c->close_after |= c->out.close;
-    c->since_ms = now_ms();
-    c->deadline_ms = c->since_ms + options_.write_timeout_ms;
-    write_some(*c);
+  for (const uint64_t id : ready) {
+    with_connection(id, [&](Connection& c) {
+      pull(c.out);
+      if (c.out.bytes.empty() && c.out.stream) return;
+      unread_.add(c.out);
+      c.phase = Phase::writing;
+      c.written = 0;
+      c.close_after |= c.out.close;
+      c.since_ms = now_ms();
+      c.deadline_ms = c.since_ms + options_.write_timeout_ms;
+      write_some(c);
+    });
   }
 }
 
@@ -145,13 +147,13 @@ void Front::probe_half_closed() {
   }
   for (const uint64_t id : late) {
     Connection& c = *connections_.at(id);
-    if (c.ahead == kResponseStart.size()) continue;
-    const ssize_t sent = send(c.fd, kResponseStart.data() + c.ahead, 1, MSG_NOSIGNAL);
+    if (c.bytes_sent_ahead == kResponseStart.size()) continue;
+    const ssize_t sent = send(c.fd, kResponseStart.data() + c.bytes_sent_ahead, 1, MSG_NOSIGNAL);
     if (sent < 0 && errno != EAGAIN && errno != EINTR) {
       close_connection(id);
       continue;
     }
-    c.ahead += sent > 0;
+    c.bytes_sent_ahead += sent > 0;
     c.probe_at_ms = now + (now - c.half_closed_ms);
   }
 }

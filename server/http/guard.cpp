@@ -23,14 +23,11 @@ bool is_own_name(std::string_view name, const Config& config) {
                      [&](const std::string& allowed) { return is_same_name(name, allowed); });
 }
 
-::tl::expected<void, Problem> check_host(std::string_view host, const Config& config) {
-  if (host.empty()) return {};  // HTTP/1.0; no browser
-  const auto authority = parse_authority(host);
-  if (!authority) return problem(400, "bad_request", "the Host " + quoted(host) + " is not 'name' or 'name:port'");
-  if (is_own_name(authority->name, config)) return {};
+::tl::expected<void, Problem> check_host(const Authority& host, const Config& config) {
+  if (host.name.empty() || is_own_name(host.name, config)) return {};  // empty: HTTP/1.0; no browser
   return problem(
       421, "misdirected",
-      "this server does not answer for the host " + quoted(host) + "; start it with --allowed-hosts to make it");
+      "this server does not answer for the host " + quoted(host.name) + "; start it with --allowed-hosts to make it");
 }
 
 // What a browser says of the page that asks. Sec-Fetch-Site decides where it is there, whatever a proxy has made of
@@ -46,15 +43,11 @@ bool is_own_name(std::string_view name, const Config& config) {
                    "requests from pages of other sites are not accepted; the browser calls this one " +
                        quoted(std::find_if_not(site, sites_end, is_own_site)->second));
   }
-  const auto [origin, origins_end] = request.headers.equal_range("Origin");
-  const auto host = parse_authority(request.host);
-  const bool is_own_page = std::all_of(origin, origins_end, [&](const auto& field) {
-    return host && is_same_origin(field.second, *host, request.scheme);
-  });
-  if (is_own_page) return {};
+  const auto origin = request.header("Origin");
+  if (!origin || is_same_origin(*origin, request.host, request.scheme)) return {};
   return problem(403, "cross_origin",
-                 "requests from pages of other sites are not accepted; the page is of " + quoted(origin->second) +
-                     ", the request for the host " + quoted(request.host) +
+                 "requests from pages of other sites are not accepted; the page is of " + quoted(*origin) +
+                     ", the request for the host " + quoted(authority_text(request.host)) +
                      (request.scheme.empty() ? "" : " by " + request.scheme) +
                      ". If that is one site behind a proxy, the proxy must hand on Host as the browser sent it");
 }
@@ -67,7 +60,8 @@ bool is_json(std::string_view content_type) {
 
 ::tl::expected<void, Problem> check_guard(const Request& request, const Config& config) {
   // Both: a page may set X-Forwarded-Host, but not Host, on requests to its own name.
-  for (const std::string_view host : {request.header("Host").value_or(""), std::string_view(request.host)}) {
+  const auto named = parse_authority(request.header("Host").value_or(""));
+  for (const Authority& host : {named.value_or(Authority{}), request.host}) {
     if (auto own = check_host(host, config); !own) return own;
   }
   const bool changes_state = request.method != "GET" && request.method != "OPTIONS";

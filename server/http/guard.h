@@ -8,7 +8,7 @@
 
 namespace tilelight::server {
 
-// 400, 421: Host is none, or not ours; 403: another site's page; 415: a body that is not application/json.
+// 421: Host is not one of our names; 403: another site's page; 415: a body that is not application/json.
 ::tl::expected<void, Problem> check_guard(const Request& request, const Config& config);
 
 }  // namespace tilelight::server

@@ -69,7 +69,7 @@ std::optional<int64_t> number_param(const Request& request, const std::string& n
 
 // How long this request waits: Prefer: wait=N, else the default, and at most --max-wait-s.
 double wait_seconds(const Services& services, const Request& request, double default_s);
-// Says in Preference-Applied which wait was granted, where the client asked for one.
+// Says in Preference-Applied which wait was granted, where the client asked for one. Not for answers that caches keep.
 void tell_wait(const Services& services, const Request& request, Response& response);
 
 // What a refused submission becomes.

@@ -87,7 +87,8 @@ std::string scene_image_etag(const ScenePtr& scene, const View& view, ImageForma
 
 // The picture of a scene and a view is always the same, whoever asks, so any cache may keep it. An address that names
 // the format needs no Vary, which would make a cache keep a copy for every spelling of Accept that browsers have.
-// (Nobody needs a key to ask; a picture for holders of one would have to be private.)
+// (Nobody needs a key to ask; a picture for holders of one would have to be private.) Preference-Applied is left out: a
+// cache would tell it to clients that asked for another wait.
 Response for_caches(Response response, const Request& request, const std::string& etag) {
   response.with("ETag", etag).with("Cache-Control", "public, max-age=31536000, immutable");
   if (!request.param("format")) response.with("Vary", "Accept");
@@ -137,6 +138,7 @@ Reply get_scene_image(Services& services, const Request& request) {
   const auto format = scene_image_format(request, *view);
   if (!format) return ::tl::unexpected(format.error());
   const std::string etag = scene_image_etag(scene, *view, *format);
+  // Before anything is rendered; of other GETs route() holds it against the answer.
   if (!is_match_met(request, {true, etag})) return ::tl::unexpected<Problem>(precondition_failed({true, etag}));
   if (has_current(request, etag)) return for_caches(empty_response(304), request, etag);
   if (const auto kept = services.pictures.find(etag)) {

@@ -32,9 +32,7 @@ Response tagged(const Request& request, std::string_view etag, std::string_view 
   return response.with("ETag", std::string(etag)).with("Cache-Control", "no-cache");
 }
 
-Response tagged_json(const Request& request, const std::string& json) {
-  return tagged(request, "\"" + sha256_hex(json).substr(0, 32) + "\"", "application/json", json);
-}
+std::string tag_of(const std::string& text) { return "\"" + sha256_hex(text).substr(0, 32) + "\""; }
 
 }  // namespace
 
@@ -51,17 +49,20 @@ Reply get_page_file(Services&, const Request& request) {
 }
 
 Reply get_openapi(Services& services, const Request& request) {
-  return tagged_json(request, openapi_document(services.config, request.prefix));
+  const Descriptions& made = services.descriptions;
+  const std::string url = request.prefix.empty() ? "/" : request.prefix;  // holds nothing that JSON would escape
+  return tagged(request, tag_of(made.openapi_hash + url), "application/json",
+                made.openapi_before_url + url + made.openapi_after_url);
 }
 
 Reply get_limits(Services& services, const Request& request) {
-  return tagged_json(request, limits_document(services.config));
+  const std::string limits = limits_document(services.config);
+  return tagged(request, tag_of(limits), "application/json", limits);
 }
 
 Reply get_scene_schema(Services& services, const Request& request) {
-  Response response = tagged_json(request, scene_schema_json(services.config.limits));
-  if (!response.content_type.empty()) response.content_type = "application/schema+json";
-  return response;
+  const std::string& schema = services.descriptions.scene_schema;
+  return tagged(request, tag_of(schema), "application/schema+json", schema);
 }
 
 }  // namespace tilelight::server

@@ -107,6 +107,7 @@ Reply get_render(Services& services, const Request& request) {
   auto record = services.jobs.find(id);
   if (!record) return no_such_render();
   const auto etag = [&] { return render_etag(record->status); };
+  // Before this waits; of other GETs route() holds it against the answer.
   if (!is_match_met(request, {true, etag()})) return ::tl::unexpected<Problem>(precondition_failed({true, etag()}));
   const double wait_s = wait_seconds(services, request, 0.0);
   const WorkPtr work = services.jobs.work(id);

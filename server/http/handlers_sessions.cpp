@@ -94,14 +94,16 @@ Reply get_session_frame(Services& services, const Request& request) {
   services.metrics.add("tilelight_session_frames_total", "");
   char timing[96];
   std::snprintf(timing, sizeof timing, "render;dur=%.2f, encode;dur=%.2f", frame->progress.elapsed_ms, ms_since(start));
-  return shared_image(*encoded, *format)
-      .with("Frame-Seq", std::to_string(frame->seq))
+  Response response = shared_image(*encoded, *format);
+  response.with("Frame-Seq", std::to_string(frame->seq))
       .with("View-Seq", std::to_string(frame->view_seq))
       .with("Frame-Final", frame->is_final ? "?1" : "?0")
       .with("Render-Info", render_info(frame->progress.spp, frame->is_final ? frame->report.stop : "", frame->report,
                                        (*encoded)->clamped))
       .with("Server-Timing", timing)
       .with("Cache-Control", "no-store");
+  tell_wait(services, request, response);
+  return response;
 }
 
 Reply delete_session(Services& services, const Request& request) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "server/http/negotiate.h"
+#include "server/http/origin.h"
 #include "server/http/target.h"
 #include "server/http/text.h"
 
@@ -13,8 +14,8 @@ namespace {
 constexpr std::string_view kMethods[] = {"GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS"};
 
 // Of two values each reader would take another one.
-constexpr const char* kSingle[] = {"Host",   "Content-Length", "Content-Type",   "Authorization",
-                                   "Origin", "Last-Event-ID",  "Idempotency-Key"};
+constexpr const char* kFieldsAllowedOnce[] = {"Host",   "Content-Length", "Content-Type",   "Authorization",
+                                              "Origin", "Last-Event-ID",  "Idempotency-Key"};
 
 ::tl::unexpected<Problem> bad(std::string detail) { return problem(400, "bad_request", std::move(detail)); }
 
@@ -85,16 +86,16 @@ constexpr const char* kSingle[] = {"Host",   "Content-Length", "Content-Type",  
   if (headers.count("Host") > 1 || (headers.count("Host") == 0 && !head.is_http_1_0)) {
     return bad("a request has exactly one Host header");
   }
-  const std::string host(head.request.header("Host").value_or(""));
-  if (!host.empty() && !is_authority(host)) return bad("the header Host is not a host with or without a port");
+  const std::string_view host = head.request.header("Host").value_or("");
+  if (!host.empty() && !parse_authority(host)) return bad("the header Host is not a host with or without a port");
   if (!from_target) return {};
   headers.erase("Host");
   headers.emplace("Host", from_target.mapped());
   return {};
 }
 
-::tl::expected<void, Problem> check_single(const Headers& headers) {
-  for (const char* name : kSingle) {
+::tl::expected<void, Problem> check_fields_allowed_once(const Headers& headers) {
+  for (const char* name : kFieldsAllowedOnce) {
     if (headers.count(name) > 1) return bad("the header " + std::string(name) + " may come once");
   }
   return {};
@@ -184,7 +185,7 @@ constexpr const char* kSingle[] = {"Host",   "Content-Length", "Content-Type",  
     if (auto read = read_field(take_line(), limits, headers); !read) return read;
   }
   if (auto settled = settle_host(is_host_in_target, head); !settled) return settled;
-  if (auto checked = check_single(headers); !checked) return checked;
+  if (auto checked = check_fields_allowed_once(headers); !checked) return checked;
   if (auto read = read_framing(limits, head); !read) return read;
   return read_connection(head);
 }

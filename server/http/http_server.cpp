@@ -7,9 +7,11 @@
 namespace tilelight::server {
 namespace {
 
+constexpr std::string_view kRefused = "tilelight_http_refused_total", kUnanswered = "status=\"none\"";
+
 Served refuse(Services& services, const Problem& problem, const std::string& client, bool is_head) {
   const std::string id = random_hex(8);
-  services.metrics.add("tilelight_http_refused_total", "status=\"" + std::to_string(problem.status) + "\"");
+  services.metrics.add(kRefused, "status=\"" + std::to_string(problem.status) + "\"");
   services.log.write(LogLevel::info, "refused",
                      {{"id", id}, {"client", client}, {"status", int64_t{problem.status}}, {"code", problem.code}});
   return write_response(std::move(problem_response(problem, id).with("Request-Id", id)),
@@ -26,11 +28,11 @@ Served serve(Services& services, const std::vector<Route>& routes, Exchange& exc
   request.id = random_hex(8);
   request.gone = exchange.gone.get_token();
   return write_response(dispatch(services, routes, std::move(request)), form);
-} catch (const std::exception& bug) {
+} catch (const std::exception&) {
   // Beyond what dispatch() catches: memory was short when an answer was put together. No answer, and the connection
-  // closes; nothing that a request does may end the process.
-  services.metrics.add("tilelight_http_refused_total", "status=\"none\"");
-  services.log.write(LogLevel::error, "bug", {{"client", exchange.client}, {"what", std::string(bug.what())}});
+  // closes; nothing that a request does may end the process, so nothing here takes memory.
+  services.metrics.add(kRefused, kUnanswered);
+  services.log.write(LogLevel::error, "unanswered", {});
   return {"", nullptr, true};
 }
 
@@ -44,6 +46,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::bind(FrontOptions options, const
         return refuse(services, problem, client, is_head);
       });
   if (!front) return ::tl::unexpected(front.error());
+  services.metrics.add(kRefused, kUnanswered, 0.0);  // known from here on, so that adding to it takes no memory
   auto server = std::make_unique<HttpServer>();
   server->front_ = std::move(*front);
   return server;

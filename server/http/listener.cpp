@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <new>
 
 namespace tilelight::server {
 namespace {
@@ -48,7 +49,7 @@ Result<Listener> listen_on(const std::string& host, int port) {
     return fail("bind", "cannot listen on " + where + ": " + gai_strerror(code));
   }
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, freeaddrinfo);
-  std::string cause = "no address";
+  int cause = EADDRNOTAVAIL;
   for (const addrinfo* a = found; a; a = a->ai_next) {
     const int fd = socket(a->ai_family, a->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, a->ai_protocol);
     const int on = 1;
@@ -56,10 +57,11 @@ Result<Listener> listen_on(const std::string& host, int port) {
         bind(fd, a->ai_addr, a->ai_addrlen) == 0 && listen(fd, kBacklog) == 0) {
       return Listener{fd, port_of(fd)};
     }
-    cause = std::strerror(errno);
+    cause = errno;
     if (fd >= 0) close(fd);
   }
-  return fail("bind", "cannot listen on " + where + ": " + cause);
+  const bool is_absent = cause == EADDRNOTAVAIL || cause == EAFNOSUPPORT;
+  return fail(is_absent ? "no_address" : "bind", "cannot listen on " + where + ": " + std::strerror(cause));
 }
 
 ::tl::expected<Peer, AcceptError> accept_peer(int listener) {
@@ -74,11 +76,16 @@ Result<Listener> listen_on(const std::string& host, int port) {
       setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &kSilenceS, sizeof kSilenceS);
       setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &kProbeS, sizeof kProbeS);
       setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &kProbes, sizeof kProbes);
-      return Peer{fd, address_text(address, size)};
+      try {
+        return Peer{fd, address_text(address, size)};
+      } catch (const std::bad_alloc&) {
+        close(fd);
+        return ::tl::unexpected(AcceptError::no_room);
+      }
     }
     if (errno == EINTR || errno == ECONNABORTED) continue;
     const bool is_full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
-    return ::tl::unexpected(is_full ? AcceptError::no_descriptors : AcceptError::nothing_now);
+    return ::tl::unexpected(is_full ? AcceptError::no_room : AcceptError::nothing_now);
   }
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "server/http/origin.h"
 
 namespace tilelight::server {
 
@@ -37,7 +38,7 @@ struct Request {
   std::string_view body;                          // lives as long as the request
   std::string client;                             // the address of who asks: the peer's, or what a trusted proxy says
   std::string scheme;                             // under which the client asks; empty where no trusted proxy says it
-  std::string host;                               // that the client asks, as in Host
+  Authority host;                                 // that the client asks; without a name where it says none
   std::string prefix;                             // of our paths as the client sees them, "/render"; empty: none
   std::string id;                                 // names the request in the log and in problems
   std::stop_token gone;                           // requested when the client closes its connection

@@ -11,13 +11,6 @@
 namespace tilelight::server {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 // The parts between the separators, trimmed and without empty ones; quoted strings stay whole.
 std::vector<std::string> split_unquoted(std::string_view value, char separator) {
   std::vector<std::string> out;
@@ -188,6 +181,7 @@ Problem precondition_failed(const Current& current) {
     failed.detail += "it has no entity tag";
   } else {
     failed.detail += "its entity tag is " + current.etag;
+    if (has_prefix(current.etag, "W/")) failed.detail += ", a weak one, which If-Match never matches";
     failed.with("ETag", current.etag);
   }
   return failed;

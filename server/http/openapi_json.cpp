@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "renderer/base/hash.h"
 #include "server/http/documents.h"
 #include "server/http/page_files.h"
 
@@ -56,10 +57,13 @@ void adapt(Json& schema) {
 
 }  // namespace
 
-std::string openapi_document(const Config& config, std::string_view prefix) {
+Descriptions make_descriptions(const Config& config) {
+  Descriptions out;
+  out.scene_schema = scene_schema_json(config.limits);
+  constexpr std::string_view kUrlHere = "<url>";  // nothing else in the document says so
   Json document = Json::parse(kOpenApiFile.bytes);
-  document["servers"][0]["url"] = prefix.empty() ? "/" : prefix;
-  Json scene = Json::parse(scene_schema_json(config.limits));
+  document["servers"][0]["url"] = kUrlHere;
+  Json scene = Json::parse(out.scene_schema);
   adapt(scene);
   Json& schemas = document["components"]["schemas"];
   const Json defs = std::exchange(scene["$defs"], Json());
@@ -67,7 +71,12 @@ std::string openapi_document(const Config& config, std::string_view prefix) {
   scene.erase("$schema");  // OpenAPI 3.1 has the same dialect
   schemas["Scene"] = std::move(scene);
   for (const auto& [name, def] : defs.items()) schemas[schema_name(name)] = def;
-  return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const size_t at = text.find(kUrlHere);
+  out.openapi_before_url = text.substr(0, at);
+  out.openapi_after_url = text.substr(at + kUrlHere.size());
+  out.openapi_hash = sha256_hex(text);
+  return out;
 }
 
 }  // namespace tilelight::server

@@ -5,12 +5,12 @@ namespace tilelight::server {
 namespace {
 
 // What the client wants for an answer.
-struct Wish {
+struct AnswerKind {
   std::optional<ImageFormat> image;  // wait and answer with it; nothing: answer with the job
 };
 
-// Of who asks by name for formats that the picture is not to be had in: what else there is and is accepted.
-std::optional<std::string_view> second_choice(const Request& request, const std::vector<ImageFormat>& formats) {
+// What to answer with when none of the image types named in Accept can hold the picture.
+std::optional<std::string_view> acceptable_fallback(const Request& request, const std::vector<ImageFormat>& formats) {
   std::vector<std::string_view> offers;
   if (asked_image_format(request, image_formats(true))) {
     for (const ImageFormat format : formats) offers.push_back(media_type(format));
@@ -20,21 +20,21 @@ std::optional<std::string_view> second_choice(const Request& request, const std:
 }
 
 // formats: those that there are of the picture. size: of the picture, where it is known.
-::tl::expected<Wish, Problem> read_wish(const Request& request, const std::vector<ImageFormat>& formats,
-                                        const ImageSpec& size) {
+::tl::expected<AnswerKind, Problem> read_answer_kind(const Request& request, const std::vector<ImageFormat>& formats,
+                                                     const ImageSpec& size) {
   // With both, it is a job where it takes longer than the wait (RFC 7240, 4.3).
   const Preferences preferences = read_preferences(request);
-  if (preferences.respond_async && !preferences.wait_s) return Wish{};
-  if (const auto image = asked_image_format(request, formats)) return Wish{image};
-  if (const auto type = second_choice(request, formats)) return Wish{image_format_from_media_type(*type)};
+  if (preferences.respond_async && !preferences.wait_s) return AnswerKind{};
+  if (const auto image = asked_image_format(request, formats)) return AnswerKind{image};
+  if (const auto type = acceptable_fallback(request, formats)) return AnswerKind{image_format_from_media_type(*type)};
   return not_acceptable(request,
                         "a render can be answered as image/png, image/jpeg or image/x-exr, one by the algorithm "
                         "roberts also as image/svg+xml or, as a job, as application/json",
                         size.width, size.height);
 }
 
-::tl::expected<Wish, Problem> read_wish(const Request& request, const View& view) {
-  return read_wish(request, image_formats(view), view.image);
+::tl::expected<AnswerKind, Problem> read_answer_kind(const Request& request, const View& view) {
+  return read_answer_kind(request, image_formats(view), view.image);
 }
 
 // Waits for the work; the image, or nothing if it takes longer than the client waits.
@@ -73,10 +73,10 @@ using Claim = std::optional<IdempotencyKeys::Claim>;
   const auto record = claim.job_id.empty() ? std::nullopt : services.jobs.find(claim.job_id);
   if (!record) return std::optional<Response>();
   if (const WorkPtr work = services.jobs.work(record->id)) {
-    const auto wish = read_wish(request, work->request().view);
-    if (!wish) return ::tl::unexpected(wish.error());
-    if (wish->image) {
-      auto image = wait_for_image(services, request, *work, *wish->image);
+    const auto kind = read_answer_kind(request, work->request().view);
+    if (!kind) return ::tl::unexpected(kind.error());
+    if (kind->image) {
+      auto image = wait_for_image(services, request, *work, *kind->image);
       if (!image || *image) return image;
     }
   }
@@ -100,15 +100,15 @@ Result<JobRecord> keep_job(Services& services, WorkLease lease, const Request& r
 
 Reply submit_order(Services& services, const Request& request, const Claim& claim, Ordered&& ordered) {
   RenderRequest& render = ordered.render;
-  const auto wish = read_wish(request, render.view);
-  if (!wish) return ::tl::unexpected(wish.error());
-  render.format = wish->image.value_or(render.format);
-  render.priority = ordered.priority.value_or(wish->image ? Priority::normal : Priority::batch);
-  render.becomes_job = !wish->image;
+  const auto kind = read_answer_kind(request, render.view);
+  if (!kind) return ::tl::unexpected(kind.error());
+  render.format = kind->image.value_or(render.format);
+  render.priority = ordered.priority.value_or(kind->image ? Priority::normal : Priority::batch);
+  render.becomes_job = !kind->image;
   const ImageFormat format = render.format;
   auto lease = services.queue.submit(std::move(render));
   if (!lease) return refused(services, lease.error());
-  if (wish->image) {
+  if (kind->image) {
     auto image = wait_for_image(services, request, *lease->work(), format);
     if (!image) return ::tl::unexpected(image.error());
     if (*image) return std::move(**image);
@@ -123,8 +123,8 @@ Reply submit_order(Services& services, const Request& request, const Claim& clai
 Reply accept_order(Services& services, const Request& request, const std::string& content_hash,
                    const std::function<::tl::expected<Ordered, Problem>()>& prepare) {
   // What nobody could answer is refused before the body is read.
-  if (const auto wish = read_wish(request, image_formats(true), ImageSpec{}); !wish)
-    return ::tl::unexpected(wish.error());
+  if (const auto kind = read_answer_kind(request, image_formats(true), ImageSpec{}); !kind)
+    return ::tl::unexpected(kind.error());
   const auto key = read_idempotency_key(request);
   if (!key) return ::tl::unexpected(key.error());
   Claim claim;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 
 #include "server/address.h"
 #include "server/http/text.h"
@@ -10,17 +11,16 @@
 namespace tilelight::server {
 namespace {
 
-// reg-name, percent signs included (RFC 3986, 3.2.2).
+// reg-name (RFC 3986, 3.2.2), which IPv4 addresses are too. Behind a percent sign stand two hexadecimal digits.
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("-._~%!$&'()*+,;=").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
+  constexpr std::string_view kOthers = "-._~%!$&'()*+,;=";
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool is_plain =
+        std::isalnum(static_cast<unsigned char>(text[i])) || kOthers.find(text[i]) != std::string_view::npos;
+    const std::string_view behind = text.substr(i + 1, 2);
+    if (!is_plain || (text[i] == '%' && (behind.size() < 2 || !whole_number<uint8_t>(behind, 16)))) return false;
+  }
+  return !text.empty();
 }
 
 // The name, and what is left of the text: "", or a colon and a port.
@@ -50,10 +50,14 @@ std::optional<Authority> parse_authority(std::string_view text) {
   if (text.front() != ':') return std::nullopt;
   text.remove_prefix(1);
   if (text.empty()) return out;  // "localhost:" is lawful
-  const bool is_digits = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
-  out.port = is_digits ? whole_number<int>(text) : std::nullopt;
-  if (!out.port || *out.port > 65'535) return std::nullopt;
-  return out;
+  out.port = is_digits(text) ? whole_number<uint16_t>(text) : std::nullopt;
+  return out.port ? std::optional(out) : std::nullopt;
+}
+
+std::string authority_text(const Authority& authority) {
+  const bool is_ipv6 = authority.name.find(':') != std::string::npos;
+  const std::string name = is_ipv6 ? "[" + authority.name + "]" : authority.name;
+  return authority.port ? name + ":" + std::to_string(*authority.port) : name;
 }
 
 bool is_same_origin(std::string_view origin, const Authority& host, std::string_view scheme) {

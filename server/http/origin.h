@@ -8,7 +8,7 @@
 
 namespace tilelight::server {
 
-// What a Host header says.
+// What a Host header says, and the host of an address.
 struct Authority {
   std::string name;         // in lower case; an IPv6 address without its brackets
   std::optional<int> port;  // nothing: the scheme's
@@ -16,6 +16,7 @@ struct Authority {
 
 // "render.example", "localhost:8080", "[::1]:80". Nothing for anything that no Host may be.
 std::optional<Authority> parse_authority(std::string_view text);
+std::string authority_text(const Authority& authority);
 
 // Whether a page of this origin ("https://render.example") is a page of the host: scheme, name and port are the same,
 // where a port left out is the scheme's, 80 or 443. scheme: of the host; empty where it is not known, and then the

@@ -47,10 +47,10 @@ const std::vector<Route> kApiRoutes = {
 };
 
 const std::vector<Route> kAdminRoutes = {
-    {"GET", "/livez", get_livez},
-    {"GET", "/readyz", get_readyz},
-    {"GET", "/metrics", get_metrics},
-    {"GET", "/version", get_version},
+    {"GET", "/livez", get_livez, {}, true},
+    {"GET", "/readyz", get_readyz, {}, true},
+    {"GET", "/metrics", get_metrics, {}, true},
+    {"GET", "/version", get_version, {}, true},
 };
 
 // args: the segments at the pattern's {names}.

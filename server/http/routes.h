@@ -16,7 +16,8 @@ struct Route {
   Reply (*handler)(Services&, const Request&);
   // The names that its query may have, each once; openapi.json describes them.
   std::vector<std::string> query = {};
-  // A query means nothing to the server and is let through: to the page it may, and links to pages get them.
+  // A query means nothing to the server and is let through: links to pages get parameters from others, and so do the
+  // addresses of probes ("/livez?verbose").
   bool ignores_query = false;
 };
 

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "server/config.h"
+#include "server/http/documents.h"
 #include "server/http/message.h"
 #include "server/jobs/idempotency.h"
 #include "server/jobs/jobs.h"
@@ -61,6 +62,7 @@ struct Services {
   IdempotencyKeys& keys;
   WaitSlots& waits;
   WaitSlots& streams;  // of events
+  const Descriptions& descriptions;
   const Clock& clock;
   const std::atomic<bool>& is_stopping;
 };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/target.h"
 
-#include <arpa/inet.h>
-
 #include <algorithm>
 
+#include "server/http/origin.h"
 #include "server/http/text.h"
 
 namespace tilelight::server {
@@ -39,32 +38,7 @@ std::optional<std::string> percent_decoded(std::string_view text, Plus plus) {
   return out;
 }
 
-bool is_ipv6(std::string_view text) {
-  in6_addr out;
-  return inet_pton(AF_INET6, std::string(text).c_str(), &out) == 1;
-}
-
-// reg-name (RFC 3986, 3.2.2), which IPv4 addresses are too.
-bool is_host_name(std::string_view text) {
-  constexpr std::string_view kOthers = "-._~!$&'()*+,;=%";
-  const bool clean = std::all_of(text.begin(), text.end(), [&](unsigned char c) {
-    return std::isalnum(c) || kOthers.find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  return clean && !text.empty() && percent_decoded(text, Plus::is_plus);
-}
-
 }  // namespace
-
-bool is_authority(std::string_view text) {
-  const bool is_literal = !text.empty() && text.front() == '[';
-  const size_t host_end = is_literal ? text.find(']') : text.find(':');
-  if (is_literal && host_end == std::string_view::npos) return false;
-  const std::string_view host = text.substr(is_literal, host_end - is_literal);
-  if (!(is_literal ? is_ipv6(host) : is_host_name(host))) return false;
-  std::string_view rest = host_end == std::string_view::npos ? "" : text.substr(host_end + is_literal);
-  if (rest.empty() || rest == ":") return true;
-  return rest.front() == ':' && is_digits(rest.substr(1)) && whole_number<uint16_t>(rest.substr(1));
-}
 
 ::tl::expected<Target, Problem> split_target(std::string_view method, std::string_view text) {
   const auto bad = [](const char* detail) { return problem(400, "bad_request", detail); };
@@ -81,7 +55,7 @@ bool is_authority(std::string_view text) {
     text.remove_prefix(text.find("://") + 3);
     target.authority = text.substr(0, text.find_first_of("/?"));
     text.remove_prefix(target.authority.size());
-    if (!is_authority(target.authority)) return bad("the target names no host, or one that is none, or a user");
+    if (!parse_authority(target.authority)) return bad("the target names no host, or one that is none, or a user");
   }
   const size_t query = text.find('?');
   target.path = text.substr(0, query);

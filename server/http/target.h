@@ -22,9 +22,6 @@ struct Target {
 // Origin, absolute and asterisk form. Problems: bad_request.
 ::tl::expected<Target, Problem> split_target(std::string_view method, std::string_view text);
 
-// host [":" port], as Host spells it too: a name, an IPv4 address or an IPv6 address in brackets.
-bool is_authority(std::string_view text);
-
 // "/a/b%2Fc" -> "a", "b/c". Nothing where a % is not followed by two hexadecimal digits.
 std::optional<std::vector<std::string>> path_segments(std::string_view path);
 

@@ -5,8 +5,10 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace tilelight::server {
@@ -19,6 +21,13 @@ inline bool is_same_name(std::string_view a, std::string_view b) {
 // Whether the text begins so; case does not count.
 inline bool has_prefix(std::string_view text, std::string_view prefix) {
   return is_same_name(text.substr(0, prefix.size()), prefix);
+}
+
+// ASCII letters in lower case.
+inline std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
 }
 
 // 1*DIGIT

@@ -12,8 +12,9 @@ namespace tilelight::server {
 class Unread {
  public:
   void add(const Served& response) {
-    bytes_ += static_cast<int64_t>(response.bytes.size());
+    // First what may find no memory, and then counts nothing.
     if (response.body && ++readers_[response.body.get()] == 1) bytes_ += static_cast<int64_t>(response.body->size());
+    bytes_ += static_cast<int64_t>(response.bytes.size());
   }
   void remove(const Served& response) {
     bytes_ -= static_cast<int64_t>(response.bytes.size());

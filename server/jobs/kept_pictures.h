@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // KeptPictures: pictures of stored scenes under their entity tags, the most recently used ones within a number of
-// bytes. Caches keep them too, but ask again for every spelling of a header, and one cache does not know of another.
-// Any thread.
+// bytes. Caches keep them too, but different caches, and different Accept headers in one cache, ask for the same
+// picture. Any thread.
 #pragma once
 
 #include <list>
@@ -25,6 +25,7 @@ class KeptPictures {
   explicit KeptPictures(int64_t max_bytes) : max_bytes_(max_bytes) {}
 
   std::optional<KeptPicture> find(const std::string& etag);
+  // One that is larger than all the room is not kept.
   void put(const std::string& etag, KeptPicture picture);
 
  private:

@@ -60,12 +60,11 @@ std::string RenderWork::lines_svg() const {
   return render->lines_svg();
 }
 
-std::pair<RenderWork::Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> RenderWork::claim(
-    ImageFormat format) {
+std::pair<RenderWork::Encoding, std::shared_ptr<RenderWork::EncodingPromise>> RenderWork::claim(ImageFormat format) {
   const std::lock_guard lock(mutex_);
   const auto known = encodings_.find(format);
   if (known != encodings_.end()) return {known->second, nullptr};
-  auto promise = std::make_shared<std::promise<Result<EncodedPtr>>>();
+  auto promise = std::make_shared<EncodingPromise>();
   Encoding future = promise->get_future().share();
   // Without the linear image there is nothing to claim, and the answer is no promise for later.
   if (picture_.image) encodings_[format] = future;
@@ -92,21 +91,35 @@ Result<EncodedPtr> RenderWork::encoded(ImageFormat format, TilePool& pool) {
   auto [future, mine] = claim(format);
   if (mine) {
     // Not at the render's priority: somebody waits for it.
-    pool.post(Priority::interactive, [self = shared_from_this(), format, promise = mine] {
-      try {
-        promise->set_value(self->encode(format));
-      } catch (...) {
-        promise->set_exception(std::current_exception());
-      }
-    });
+    try {
+      pool.post(Priority::interactive, [self = shared_from_this(), format, mine = mine] { self->keep(*mine, format); });
+    } catch (...) {
+      break_promise(*mine, format);
+    }
   }
   return future.get();
 }
 
 Result<EncodedPtr> RenderWork::encode_here(ImageFormat format) {
   auto [future, mine] = claim(format);
-  if (mine) mine->set_value(encode(format));
+  if (mine) keep(*mine, format);
   return future.get();
+}
+
+void RenderWork::keep(EncodingPromise& promise, ImageFormat format) {
+  try {
+    promise.set_value(encode(format));
+  } catch (...) {
+    break_promise(promise, format);
+  }
+}
+
+void RenderWork::break_promise(EncodingPromise& promise, ImageFormat format) {
+  {
+    const std::lock_guard lock(mutex_);
+    encodings_.erase(format);
+  }
+  promise.set_exception(std::current_exception());
 }
 
 std::string RenderWork::final_image_hash() {

@@ -88,8 +88,13 @@ class RenderWork : public std::enable_shared_from_this<RenderWork> {
 
  private:
   using Encoding = std::shared_future<Result<EncodedPtr>>;
+  using EncodingPromise = std::promise<Result<EncodedPtr>>;
   // The future of the format's encoding, and the promise if it falls to the caller to keep it.
-  std::pair<Encoding, std::shared_ptr<std::promise<Result<EncodedPtr>>>> claim(ImageFormat format);
+  std::pair<Encoding, std::shared_ptr<EncodingPromise>> claim(ImageFormat format);
+  void keep(EncodingPromise& promise, ImageFormat format);
+  // Hands on the exception that is being handled, and forgets the encoding first, so that who asks next tries anew.
+  // REQUIRES: in a catch block.
+  void break_promise(EncodingPromise& promise, ImageFormat format);
   Result<EncodedPtr> encode(ImageFormat format);
   void notify_watchers();
 

@@ -84,8 +84,10 @@ std::shared_ptr<Render> Session::start_render(const View& view, RenderOptions op
 
 std::optional<Frame> Session::wait_frame(int64_t after, std::stop_token gone, Steady::time_point until) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, gone, until, [&] { return frame_.seq > after || is_closed_; });
-  if (is_closed_ || frame_.seq <= after) return std::nullopt;
+  // That a view failed is told while it is the newest: who has sent another one waits for that one's frames.
+  const auto is_new = [&] { return frame_.seq > after && (frame_.image || frame_.view_seq == view_seq_); };
+  changed_.wait_until(lock, gone, until, [&] { return is_new() || is_closed_; });
+  if (is_closed_ || !is_new()) return std::nullopt;
   return frame_;
 }
 

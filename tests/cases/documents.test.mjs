@@ -2,11 +2,10 @@
 // Documents as people write and paste them: chess positions, meshes in lists, bytes that are no JSON, boards from above.
 import assert from 'node:assert/strict';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
-import { spawn } from 'node:child_process';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { explainPixel, inputPath, post, readInput, readJson, startServer, tilelight } from './harness.mjs';
+import { explainPixel, inputPath, jobDone, post, put, readInput, readJson, startServer, tilelight, tilelightd } from './harness.mjs';
 
 const kStart = 'rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR';
 // eslint-disable-next-line no-control-regex
@@ -24,15 +23,6 @@ after(async () => {
 });
 
 const problemOf = async (answer) => ({ status: answer.status, ...(await answer.json()) });
-
-// The job at `location`, once it is done.
-async function jobDone(location) {
-  for (;;) {
-    const job = await (await fetch(server.url + location, { headers: { Prefer: 'wait=10' } })).json();
-    if (job.state === 'done') return job;
-    assert.ok(['queued', 'running'].includes(job.state), JSON.stringify(job));
-  }
-}
 
 // --- Chess positions
 
@@ -245,14 +235,14 @@ test('a list that is not of three is told by its place', async () => {
 
 const kRefinable = { image: { width: 16, height: 16 }, render: { samples: 1 }, objects: [{ type: 'sphere' }] };
 
+const putView = (session, body) => put(server, `/v1/sessions/${session.id}/view`, body);
+
 // Every path that takes JSON, with a body that it accepts: {send(body), body}.
 async function takersOfJson() {
   const job = (await post(server, '/v1/renders', kRefinable, { Prefer: 'wait=30' }));
   const location = job.headers.get('location') ?? `/v1/renders/${(await job.clone().json()).id}`;
-  await jobDone(location);
+  await jobDone(server, location);
   const session = await (await post(server, '/v1/sessions', kRefinable)).json();
-  const put = (body) => fetch(`${server.url}/v1/sessions/${session.id}/view`, {
-    method: 'PUT', headers: { 'Content-Type': 'application/json' }, body });
   const scene = JSON.stringify(kRefinable);
   const wrapped = `{"scene": ${scene}, "image": {"width": 8, "height": 8}}`;
   let seq = 0;
@@ -260,7 +250,7 @@ async function takersOfJson() {
     ...['/v1/plan', '/v1/scenes', '/v1/renders', '/v1/sessions'].map((path) => ({ name: path, send: (body) => post(server, path, body), body: scene })),
     ...['/v1/plan', '/v1/renders', '/v1/sessions'].map((path) => ({ name: `${path}, wrapped`, send: (body) => post(server, path, body), body: wrapped })),
     { name: 'refine', send: (body) => post(server, `${location}/refine`, body), body: '{"samples": 2}' },
-    { name: 'view', send: put, get body() { seq += 1; return `{"seq": ${seq}, "moving": true, "camera": {"fov_y_deg": 30}}`; } },
+    { name: 'view', send: (body) => putView(session, body), get body() { seq += 1; return `{"seq": ${seq}, "moving": true, "camera": {"fov_y_deg": 30}}`; } },
   ];
 }
 
@@ -294,25 +284,19 @@ test('the command refuses bytes behind a NUL', async () => {
 test('the server does not start from a configuration with bytes behind a NUL', async () => {
   const path = join(folder, 'config.json');
   await writeFile(path, '{"quiet": true}\0{"port": 1}');
-  const daemon = spawn(process.env.TILELIGHTD, ['--config', path], { stdio: ['ignore', 'pipe', 'pipe'] });
-  let output = '';
-  daemon.stdout.on('data', (text) => { output += text; });
-  daemon.stderr.on('data', (text) => { output += text; });
-  const code = await new Promise((resolve, reject) => daemon.once('exit', resolve).once('error', reject));
-  assert.notEqual(code, 0);
-  assert.match(output, /config\.json.*NUL/);
+  const { code, stderr } = await tilelightd(['--config', path]);
+  assert.equal(code, 2);
+  assert.match(stderr, /config\.json.*NUL/);
 });
 
 const kNoNumbers = ['01', '-01', '+1', '.5', '1.', '1e', '1e+', '-', '0x1', '1_000', 'NaN', 'Infinity', '-Infinity', '00', '1.e3', '\uff11', '1d', "'1'"];
 
 test('numbers that JSON does not have are refused wherever a number stands', async () => {
   const session = await (await post(server, '/v1/sessions', kRefinable)).json();
-  const put = (body) => fetch(`${server.url}/v1/sessions/${session.id}/view`, {
-    method: 'PUT', headers: { 'Content-Type': 'application/json' }, body });
   for (const number of kNoNumbers) {
-    assert.equal((await put(`{"seq": ${number}}`)).status, 400, `seq ${number}`);
-    assert.equal((await put(`{"seq": 1, "moving": ${number}}`)).status, 400, `moving ${number}`);
-    assert.equal((await put(`{"seq": 1, "camera": {"fov_y_deg": ${number}}}`)).status, 400, `camera ${number}`);
+    assert.equal((await putView(session, `{"seq": ${number}}`)).status, 400, `seq ${number}`);
+    assert.equal((await putView(session, `{"seq": 1, "moving": ${number}}`)).status, 400, `moving ${number}`);
+    assert.equal((await putView(session, `{"seq": 1, "camera": {"fov_y_deg": ${number}}}`)).status, 400, `camera ${number}`);
     assert.equal((await post(server, '/v1/plan', `{"ambient": ${number}, "objects": [{"type": "cube"}]}`)).status, 400, number);
     assert.equal((await post(server, '/v1/plan', `{"scene": {"objects": [{"type": "cube"}]}, "image": {"width": ${number}}}`)).status, 400, number);
     for (const member of ['priority', 'format']) {
@@ -331,10 +315,9 @@ test('words and strings that JSON does not have are refused around a scene too',
 
 test('the number of a view is a whole number however JSON spells it', async () => {
   const session = await (await post(server, '/v1/sessions', kRefinable)).json();
-  const put = (seq) => fetch(`${server.url}/v1/sessions/${session.id}/view`, {
-    method: 'PUT', headers: { 'Content-Type': 'application/json' }, body: `{"seq": ${seq}}` });
-  for (const seq of ['1', '2.0', '3e0', '0.4e1', '9007199254740993']) assert.equal((await put(seq)).status, 204, seq);
-  for (const seq of ['0', '-0', '-1', '1.5', '1e300', '"1"', 'null', '[1]']) assert.equal((await put(seq)).status, 422, seq);
+  const statusOf = async (seq) => (await putView(session, `{"seq": ${seq}}`)).status;
+  for (const seq of ['1', '2.0', '3e0', '0.4e1', '9007199254740993']) assert.equal(await statusOf(seq), 204, seq);
+  for (const seq of ['0', '-0', '-1', '1.5', '1e300', '"1"', 'null', '[1]']) assert.equal(await statusOf(seq), 422, seq);
 });
 
 test('a byte order mark before a body counts for nothing, around a scene or not', async () => {
@@ -392,7 +375,7 @@ test('an up along the view is told by the plan and the job of that view, also wh
       assert.deepEqual(codesOf(await (await post(server, path, body)).json()), told, path);
     }
     const { id } = await (await post(server, '/v1/renders', body)).json();
-    const job = await jobDone(`/v1/renders/${id}`);
+    const job = await jobDone(server, `/v1/renders/${id}`);
     assert.deepEqual([codesOf(job), codesOf(job.report)], [told, told]);
   }
 });

@@ -4,7 +4,7 @@ import { execFile } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
 import net from 'node:net';
 
-export { startServer } from '../support/server.mjs';
+export { freePort, startServer } from '../support/server.mjs';
 
 const kInputs = new URL('./inputs/', import.meta.url).pathname;
 
@@ -13,9 +13,10 @@ export const readInput = (name) => readFile(inputPath(name));
 export const readJson = async (name) => JSON.parse(await readFile(inputPath(name), 'utf8'));
 
 // Sends `bytes` over a connection of its own and reads until the server closes or `quietMs` pass without a byte;
-// {text, isClosed}: all that came, as Latin-1, and whether the server closed. halfClose: ends the sending side first;
-// oneByOne: each byte leaves by itself.
-export function sendBytes(port, bytes, { halfClose = false, oneByOne = false, quietMs = 1500 } = {}) {
+// {text, isClosed}: all that came, as Latin-1, and whether the server closed. The last request should make it close: a
+// short quietMs is for those that nothing is to come of. halfClose: ends the sending side first; oneByOne: each byte
+// leaves by itself.
+export function sendBytes(port, bytes, { halfClose = false, oneByOne = false, quietMs = 60_000 } = {}) {
   return new Promise((resolve, reject) => {
     const socket = net.connect({ port, host: '127.0.0.1', allowHalfOpen: true });
     const chunks = [];
@@ -74,8 +75,19 @@ export function shell(line, cwd) {
   });
 }
 
-// POSTs a scene document to `path`; the fetch response.
-export const post = (server, path, body, headers = {}) => fetch(server.url + path, {
-  method: 'POST', headers: { 'Content-Type': 'application/json', ...headers },
+// Sends a document, as text or as what it means, to `path`; the fetch response.
+const send = (method) => (server, path, body, headers = {}) => fetch(server.url + path, {
+  method, headers: { 'Content-Type': 'application/json', ...headers },
   body: typeof body === 'string' || body instanceof Uint8Array ? body : JSON.stringify(body),
 });
+export const post = send('POST');
+export const put = send('PUT');
+
+// The job at `location`, once it is done.
+export async function jobDone(server, location) {
+  for (;;) {
+    const job = await (await fetch(server.url + location, { headers: { Prefer: 'wait=10' } })).json();
+    if (job.state === 'done') return job;
+    if (!['queued', 'running'].includes(job.state)) throw new Error(JSON.stringify(job));
+  }
+}

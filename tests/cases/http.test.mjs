@@ -33,7 +33,7 @@ function responsesOf(text, heads = []) {
 
 // The only response to these bytes, after which the server closes.
 async function ask(bytes, options = {}) {
-  const { text, isClosed } = await sendBytes(server.port, bytes, { quietMs: 60_000 });
+  const { text, isClosed } = await sendBytes(server.port, bytes);
   assert.ok(isClosed);
   const responses = responsesOf(text, options.isHead ? [0] : []);
   assert.equal(responses.length, 1, text);
@@ -50,13 +50,13 @@ test('a client that ends its sending gets its picture', async () => {
 });
 
 test('a client that ends its sending gets all its answers, and then the end', async () => {
-  const { text, isClosed } = await sendBytes(server.port, await readInput('half-close-pipelined.http'), { halfClose: true, quietMs: 60_000 });
+  const { text, isClosed } = await sendBytes(server.port, await readInput('half-close-pipelined.http'), { halfClose: true });
   assert.deepEqual(responsesOf(text).map(({ status }) => status), [200, 200, 200, 200, 200]);
   assert.ok(isClosed);
 });
 
 test('requests that arrive byte by byte are the same requests', async () => {
-  const { text, isClosed } = await sendBytes(server.port, await readInput('line-end-after-body.http'), { oneByOne: true, quietMs: 60_000 });
+  const { text, isClosed } = await sendBytes(server.port, await readInput('line-end-after-body.http'), { oneByOne: true });
   assert.deepEqual(responsesOf(text).map(({ status }) => status), [200, 200]);
   assert.ok(isClosed);
 });
@@ -102,7 +102,7 @@ test('close anywhere in Connection closes', async () => {
   }
   const two = (fields) => `GET /v1/limits HTTP/1.1\r\nHost: localhost\r\n${fields}\r\n${lastRequest('GET /v1/limits HTTP/1.1')}`;
   for (const [fields, answers] of [['Connection: close\r\n', 1], ['Connection: TE\r\nconnection: CLOSE\r\n', 1], ['Connection: clos%65\r\n', 2], ['Connection: upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\nHTTP2-Settings: AAMAAABk\r\n', 2]]) {
-    const { text } = await sendBytes(server.port, two(fields), { quietMs: 60_000 });
+    const { text } = await sendBytes(server.port, two(fields));
     assert.equal(statusesOf(text).length, answers, fields);
   }
 });
@@ -115,8 +115,8 @@ test('an HTTP/1.0 client gets nothing before it has sent its body', async () => 
 
 test('an HTTP/1.0 connection stays open where the client asks for it, and the answer says so', async () => {
   const one = await readInput('keep-alive-http-1.0.http');
-  const { text } = await sendBytes(server.port, Buffer.concat([one, Buffer.from('GET /v1/limits HTTP/1.0\r\n\r\n')]), { quietMs: 60_000 });
-  const twice = await sendBytes(server.port, await readInput('keep-alive-http-1.0-twice.http'), { quietMs: 60_000 });
+  const { text } = await sendBytes(server.port, Buffer.concat([one, Buffer.from('GET /v1/limits HTTP/1.0\r\n\r\n')]));
+  const twice = await sendBytes(server.port, await readInput('keep-alive-http-1.0-twice.http'));
   for (const responses of [responsesOf(text), responsesOf(twice.text)]) {
     assert.deepEqual(responses.map(({ status }) => status), [200, 200]);
     assert.equal(responses[0].headers.connection.toLowerCase(), 'keep-alive');
@@ -128,7 +128,7 @@ test('an HTTP/1.0 connection stays open where the client asks for it, and the an
 
 test('one empty line before a request is ignored', async () => {
   assert.equal((await ask(await readInput('empty-line-before-request.http'))).status, 200);
-  const { text } = await sendBytes(server.port, await readInput('line-end-after-body.http'), { quietMs: 60_000 });
+  const { text } = await sendBytes(server.port, await readInput('line-end-after-body.http'));
   assert.deepEqual(responsesOf(text).map(({ status }) => status), [200, 200]);
   assert.equal((await ask(`\r\n\r\n${lastRequest('GET / HTTP/1.1')}`)).status, 400);
 });
@@ -176,6 +176,9 @@ test('If-Match stops what would change something', async () => {
   assert.equal(await statusOf(`DELETE ${headers.location} HTTP/1.1`, 'If-Match: "x"'), 412);
   assert.equal(await statusOf(`GET ${headers.location} HTTP/1.1`), 200, 'it is still there');
   assert.equal(await statusOf('DELETE /v1/renders/none HTTP/1.1', 'If-Match: "x"'), 404);
+  const weak = await ask(lastRequest(`DELETE ${headers.location} HTTP/1.1`, `If-Match: ${(await ask(lastRequest(`GET ${headers.location} HTTP/1.1`))).headers.etag}`));
+  assert.equal(weak.status, 412);
+  assert.match(weak.body, /a weak one, which If-Match never matches/);
   assert.equal((await ask(lastPost('/v1/scenes', scene, kJson, 'If-Match: "x"'))).status, 412);
   assert.equal(await statusOf(`DELETE ${headers.location} HTTP/1.1`, 'If-Match: *'), 204);
 });
@@ -284,6 +287,12 @@ test('the page is served whatever its query says', async () => {
   for (const target of ['/?utm_source=x&utm_source=y', '/js/main.js?v=1234', '/index.html?']) assert.equal(await statusOf(`GET ${target} HTTP/1.1`), 200, target);
 });
 
+test('health and metrics come whatever their query says', async () => {
+  for (const target of ['/livez?verbose', '/readyz?verbose=1&verbose=1', '/metrics?format=prometheus', '/version?']) {
+    assert.equal((await fetch(`http://127.0.0.1:${server.adminPort}${target}`)).status, 200, target);
+  }
+});
+
 test('a + in a query is a blank, and the refusal of a number says so', async () => {
   const { headers } = await ask(lastPost('/v1/scenes', scene, kJson));
   assert.equal(await statusOf(`GET ${headers.location}/image?exposure=1e%2B0 HTTP/1.1`), 200);
@@ -299,6 +308,9 @@ test('of two waits the first counts, and parameters of preferences are none', as
     assert.deepEqual([response.status, response.headers['preference-applied']], [202, applied], prefer);
     assert.equal(await statusOf(`DELETE ${response.headers.location} HTTP/1.1`), 204);
   }
+  const brief = await ask(lastPost('/v1/renders', slow, kJson, 'Accept: image/png', 'Prefer: wait=0.25'));
+  assert.equal(brief.headers['preference-applied'], 'wait=0.25', 'with its decimals');
+  assert.equal(await statusOf(`DELETE ${brief.headers.location} HTTP/1.1`), 204);
   const waited = await ask(lastPost('/v1/renders', scene, kJson, 'Accept: image/png', 'Prefer: respond-async, wait=30'));
   assert.equal(waited.status, 200, 'with both, a job is the answer only where the wait runs out: RFC 7240, 4.3');
 });
@@ -314,7 +326,7 @@ test('a HEAD is never answered with a body', async () => {
 test('after an answer that is an error the connection goes on', async () => {
   const get = (target, ...fields) => [`GET ${target} HTTP/1.1`, 'Host: localhost', ...fields, '', ''].join('\r\n');
   const bad = `POST /v1/plan HTTP/1.1\r\nHost: localhost\r\n${kJson}\r\nContent-Length: 3\r\n\r\n{x}`;
-  const { text } = await sendBytes(server.port, get('/nowhere') + get('/v1/limits?x') + bad + get('/v1/limits', 'If-Match: "x"') + get('/v1/limits', 'Host: localhost') + get('/v1/limits'), { quietMs: 60_000 });
+  const { text } = await sendBytes(server.port, get('/nowhere') + get('/v1/limits?x') + bad + get('/v1/limits', 'If-Match: "x"') + get('/v1/limits', 'Host: localhost') + get('/v1/limits'));
   assert.deepEqual(responsesOf(text).map(({ status }) => status), [404, 422, 400, 412, 400], 'what is no request ends it');
 });
 

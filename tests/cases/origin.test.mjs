@@ -32,7 +32,7 @@ for (const [what, file, status] of [
   ['a page of http where Host has port 80 written out', 'origin_where_host_writes_port_80_out.http', 200],
 ]) {
   test(`${what} may change something`, async () => {
-    const { text } = await sendBytes(server.port, await readInput(file), { quietMs: 10_000 });
+    const { text } = await sendBytes(server.port, await readInput(file));
     assert.deepEqual(statusesOf(text), [status]);
   });
 }

@@ -10,6 +10,7 @@
 
 #include "server/http/head.h"
 #include "server/http/negotiate.h"
+#include "server/http/origin.h"
 #include "server/http/target.h"
 #include "tests/fuzz/require.h"
 
@@ -46,7 +47,10 @@ void check_fields(const Request& request, const std::string& told) {
     REQUIRE(!name.empty() && value.find_first_of(kNever) == std::string::npos, told);
   }
   REQUIRE(request.headers.count("Host") <= 1 && request.headers.count("Content-Length") <= 1, told);
-  if (const auto host = request.header("Host"); host && !host->empty()) REQUIRE(is_authority(*host), told);
+  if (const auto host = request.header("Host"); host && !host->empty()) {
+    const auto authority = parse_authority(*host);
+    REQUIRE(authority && parse_authority(authority_text(*authority)), told);
+  }
   const Preferences preferences = read_preferences(request);
   REQUIRE(!preferences.wait_s || *preferences.wait_s >= 0.0, told);
   best_offer(request, {"image/png", "application/json"});

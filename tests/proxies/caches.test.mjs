@@ -17,9 +17,11 @@ const kAccepts = [
 const startPlainNginx = (server) => startNginx(({ folder, port }) => `proxy_cache_path ${folder}/cache keys_zone=plain:1m;
   server { listen 127.0.0.1:${port}; location / { proxy_pass http://127.0.0.1:${server.port}; proxy_cache plain; } }`);
 
-// takesLists: Varnish compares If-None-Match with the one tag that it has, and answers a list of tags with the picture.
-for (const { name, startCache, host, isDocumented = false, takesLists = true } of [
+// base: the path under which the proxy has the server. takesLists: Varnish compares If-None-Match with the one tag that
+// it has, and answers a list of tags with the picture.
+for (const { name, startCache, host, base = '', isDocumented = false, takesLists = true } of [
   { name: 'nginx of docker/proxies', startCache: startDocumentedNginx, host: kSite, isDocumented: true },
+  { name: 'nginx of docker/proxies, under its path', startCache: startDocumentedNginx, host: kSite, base: '/render', isDocumented: true },
   { name: 'nginx by its own rules', startCache: startPlainNginx },
   { name: 'Varnish of docker/proxies', startCache: startDocumentedVarnish, isDocumented: true, takesLists: false },
   { name: 'Varnish by its own rules', startCache: startPlainVarnish, takesLists: false },
@@ -38,12 +40,13 @@ for (const { name, startCache, host, isDocumented = false, takesLists = true } o
       await server?.stop();
     });
 
-    // A client, and the path of the picture of a scene that nobody has asked for yet.
+    // A client, and the path of the picture of a scene that nobody has asked for yet, with and without the base.
     async function newPicture(t) {
       const client = new Client({ port: cache.port, host, say: (line) => t.diagnostic(line) });
       const scene = { objects: [{ type: 'sphere', radius: 1 + scenes++ }], image: { width: 8, height: 8 }, render: { samples: 1 } };
       const { id } = await client.json('POST', '/v1/scenes', { body: scene });
-      return { client, path: `/v1/scenes/${id}/image` };
+      const ownPath = `/v1/scenes/${id}/image`;
+      return { client, path: base + ownPath, ownPath };
     }
     // How many renders `body` costs.
     async function rendersOf(body) {
@@ -53,10 +56,10 @@ for (const { name, startCache, host, isDocumented = false, takesLists = true } o
     }
 
     test('five conditional GETs are one render', async (t) => {
-      const { client, path } = await newPicture(t);
+      const { client, path, ownPath } = await newPicture(t);
       const direct = new Client({ port: server.port });
       for (const query of ['?samples=1', '?samples=2&format=png']) {
-        const { headers: { etag } } = await direct.ask('GET', path + query);  // known without the cache
+        const { headers: { etag } } = await direct.ask('GET', ownPath + query);  // known without the cache
         const renders = await rendersOf(async () => {
           for (const tags of [etag, `W/${etag}`, `"other", ${etag}`, `"a,b" ,W/${etag}`, etag]) {
             const { status } = await client.ask('GET', path + query, { headers: { 'If-None-Match': tags } });
@@ -115,7 +118,7 @@ for (const { name, startCache, host, isDocumented = false, takesLists = true } o
 
     test('errors are not kept: what was missing or wrong is asked for again', async (t) => {
       const { client, path } = await newPicture(t);
-      for (const [bad, status] of [[`/v1/scenes/${'0'.repeat(64)}/image`, 404], [`${path}?width=0`, 422], [`${path}?format=gif`, 422]]) {
+      for (const [bad, status] of [[`${base}/v1/scenes/${'0'.repeat(64)}/image`, 404], [`${path}?width=0`, 422], [`${path}?format=gif`, 422]]) {
         const counter = `tilelight_http_requests_total{route="/v1/scenes/{id}/image",status="${status}"}`;
         const before = await metric(server, counter);
         for (let i = 0; i < 2; ++i) {

@@ -3,23 +3,25 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { startServer } from '../support/server.mjs';
-import { kSite, startDocumentedNginx, startNginx } from '../support/proxies.mjs';
+import { kSite, startDocumentedNginx, startDocumentedVarnish, startNginx } from '../support/proxies.mjs';
 import { Client } from './client.mjs';
 
 const kScene = { objects: [{ type: 'sphere' }], image: { width: 8, height: 8 }, render: { samples: 1 } };
 const kPng = { Accept: 'image/png' };
 
+const startPlainNginx = (server) => startNginx(({ port }) => `server {
+  listen 127.0.0.1:${port};
+  location / { proxy_pass http://127.0.0.1:${server.port}; }
+  location /render/ { proxy_pass http://127.0.0.1:${server.port}/; }
+  location /host/ { proxy_pass http://127.0.0.1:${server.port}/; proxy_set_header Host $host; }
+  location /port/ { proxy_pass http://127.0.0.1:${server.port}/; proxy_set_header Host $host:$server_port; }
+}`);
+
 let server;
 let nginx;
 before(async () => {
   server = await startServer();
-  nginx = await startNginx(({ port }) => `server {
-    listen 127.0.0.1:${port};
-    location / { proxy_pass http://127.0.0.1:${server.port}; }
-    location /render/ { proxy_pass http://127.0.0.1:${server.port}/; }
-    location /host/ { proxy_pass http://127.0.0.1:${server.port}/; proxy_set_header Host $host; }
-    location /port/ { proxy_pass http://127.0.0.1:${server.port}/; proxy_set_header Host $host:$server_port; }
-  }`);
+  nginx = await startPlainNginx(server);
 });
 after(async () => {
   await nginx?.stop();
@@ -38,17 +40,30 @@ test('behind proxy_pass alone a browser may render: it says itself that the page
   }
 });
 
-test('what a client says of itself through a proxy that is not trusted counts for nothing', async () => {
-  const client = new Client({ port: nginx.port });
-  const accepted = await client.ask('POST', '/v1/renders', {
-    headers: { 'X-Forwarded-Prefix': '/elsewhere', 'X-Forwarded-For': '192.0.2.1', 'X-Forwarded-Host': 'evil.example', 'X-Forwarded-Proto': 'https' },
-    body: kScene,
+// The client is none of the proxies that the server or, in the file, Varnish trusts.
+for (const { name, flags, startProxy } of [
+  { name: 'a proxy that is not trusted', flags: [], startProxy: startPlainNginx },
+  { name: 'Varnish of docker/proxies', flags: ['--trusted-proxy', '127.0.0.1'], startProxy: startDocumentedVarnish },
+]) {
+  test(`what a client says of itself through ${name} counts for nothing`, async () => {
+    const behind = await startServer(flags);
+    const proxy = await startProxy(behind);
+    try {
+      const client = new Client({ port: proxy.port, from: '127.0.0.2' });
+      const accepted = await client.ask('POST', '/v1/renders', {
+        headers: { 'X-Forwarded-Prefix': '/elsewhere', 'X-Forwarded-For': '192.0.2.1', 'X-Forwarded-Host': 'evil.example', 'X-Forwarded-Proto': 'https' },
+        body: kScene,
+      });
+      assert.equal(accepted.status, 202);
+      assert.match(accepted.headers.location, /^\/v1\/renders\//);
+      const id = accepted.headers.location.split('/').pop();
+      assert.ok((await client.json('GET', '/v1/renders')).renders.some((it) => it.id === id));
+    } finally {
+      await proxy.stop();
+      await behind.stop();
+    }
   });
-  assert.equal(accepted.status, 202);
-  assert.match(accepted.headers.location, /^\/v1\/renders\//);
-  const id = accepted.headers.location.split('/').pop();
-  assert.ok((await client.json('GET', '/v1/renders')).renders.some((it) => it.id === id));
-});
+}
 
 test('through two proxies the client and its site are those that the outer one saw', async (t) => {
   const behind = await startServer(['--allowed-hosts', kSite, '--trusted-proxy', '127.0.0.1,127.0.0.9']);

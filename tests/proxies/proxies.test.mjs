@@ -69,8 +69,9 @@ for (const [name, startProxy] of [['nginx', startDocumentedNginx], ['HAProxy', s
 
     test('a name that is not ours reaches nothing', async (t) => {
       const client = clientOf(t);
-      const { status } = await client.ask('GET', '/v1/limits', { headers: { Host: 'evil.example' } });
+      const { status, headers } = await client.ask('GET', '/v1/limits', { headers: { Host: 'evil.example' } });
       assert.equal(status, 421);
+      assert.equal(headers['request-id'], undefined, 'the proxy says so, not the server');
     });
 
     test('a job is found by its Location, under the path too, and so is its picture', async (t) => {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "server/config.h"
+#include "tests/service/service_fixture.h"
 
 namespace tilelight::server {
 namespace {
@@ -94,6 +95,26 @@ TEST(Addresses, OfThisMachineAloneAreThoseOfLoopback) {
     EXPECT_FALSE(is_loopback(address)) << address;
   for (const char* address : {"0.0.0.0", "::", "::ffff:0.0.0.0"}) EXPECT_TRUE(is_any_address(address)) << address;
   for (const char* address : {"127.0.0.1", "::1", "0.0.0.1"}) EXPECT_FALSE(is_any_address(address)) << address;
+}
+
+TEST(Addresses, OfAHostTheFirstThatThisMachineHasIsBoundAndNoOtherWhereItIsInUse) {
+  const service::Service other;
+  const auto open = [&](std::vector<std::string> addresses) {
+    static const service::HandClock clock;
+    Config config;
+    config.host_addresses = std::move(addresses);
+    config.port = other.port();
+    config.admin_port = 0;
+    config.log_level = "off";
+    return App::open(std::move(config), clock);
+  };
+  const auto in_use = open({"127.0.0.1", "127.0.0.2"});
+  ASSERT_FALSE(in_use);
+  EXPECT_EQ(in_use.error().code, "bind");
+  EXPECT_NE(in_use.error().detail.find("127.0.0.1:"), std::string::npos) << in_use.error().detail;
+  const auto elsewhere = open({"192.0.2.1", "127.0.0.2"});  // the first is nobody's (RFC 5737)
+  ASSERT_TRUE(elsewhere) << elsewhere.error().detail;
+  EXPECT_EQ((*elsewhere)->port(), other.port());
 }
 
 TEST(Addresses, AreFoundInEverySpellingOfANumber) {

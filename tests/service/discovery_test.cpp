@@ -77,6 +77,19 @@ TEST_F(Discovery, LimitsAndSchemaAreJsonAndCacheable) {
   EXPECT_EQ(Json::parse(service_->get("/v1/limits").body).at("pixels"), Limits{}.pixels);
 }
 
+TEST_F(Discovery, TheDescriptionTellsWhereTheServerIsAsTheClientSeesIt) {
+  server::Config config;
+  config.trusted_proxies = {server::parse_network("127.0.0.1").value()};
+  Service own(std::move(config));
+  const auto plain = own.get("/openapi.json"), below = own.get("/openapi.json", {{"X-Forwarded-Prefix", "/render"}});
+  Json document = Json::parse(below.body);
+  EXPECT_EQ(document.at("servers").at(0).at("url"), "/render");
+  document["servers"][0]["url"] = "/";
+  EXPECT_EQ(document, Json::parse(plain.body)) << "and nothing else differs";
+  EXPECT_NE(below.header("etag"), plain.header("etag"));
+  EXPECT_EQ(own.get("/openapi.json", {{"If-None-Match", plain.header("etag")}}).status, 304);
+}
+
 TEST_F(Discovery, ThePageIsServedFromTheProgramUnderAStrictPolicy) {
   const auto page = service_->get("/");
   ASSERT_EQ(page.status, 200);

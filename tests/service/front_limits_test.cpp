@@ -2,6 +2,8 @@
 // The front by itself, under small budgets: whom it drops when clients send or read slowly.
 #include <poll.h>
 
+#include <new>
+
 #include "server/http/front.h"
 #include "tests/service/http_client.h"
 #include "tests/service/service_fixture.h"
@@ -15,16 +17,18 @@ std::string answer_of(size_t body_bytes) {
   return "HTTP/1.1 200 OK\r\nContent-Length: " + std::to_string(body_bytes) + "\r\n\r\n" + std::string(body_bytes, 'x');
 }
 
-// A front that answers /large with kLarge bytes and everything else with none.
+// A front that answers /large with kLarge bytes and everything else with none. is_memory_short: for refusals there is
+// none.
 class OwnFront {
  public:
-  explicit OwnFront(server::FrontOptions options) {
+  explicit OwnFront(server::FrontOptions options, bool is_memory_short = false) {
     options.workers = 2;
     const auto serve = [](server::Exchange& exchange) {
       const bool is_large = exchange.head.request.path == "/large";
       return server::Served{answer_of(is_large ? kLarge : 0)};
     };
-    const auto refuse = [](const server::Problem& problem, const std::string&, bool) {
+    const auto refuse = [is_memory_short](const server::Problem& problem, const std::string&, bool) {
+      if (is_memory_short) throw std::bad_alloc();
       return server::Served{"HTTP/1.1 " + std::to_string(problem.status) + " Refused\r\nContent-Length: 0\r\n\r\n",
                             nullptr, true};
     };
@@ -120,6 +124,22 @@ TEST(Front, EndsAResponseThatIsReadTooSlowly) {
     poll(nullptr, 0, 100);
   }
   EXPECT_LT(got, kLarge);
+}
+
+TEST(Front, WhereMemoryIsShortForOneConnectionItIsClosedAndTheOthersGoOn) {
+  server::FrontOptions options;
+  options.max_unread_bytes = 1;
+  options.max_buffered_bytes = 100'000;
+  options.head_timeout_ms = 2'000.0;  // long beside what a whole request takes
+  OwnFront front(options, true);
+  const std::pair<const char*, std::string> refused[] = {{"no request", "GET / HTTP/2.0\r\n\r\n"},
+                                                         {"too large a response", kGetLarge},
+                                                         {"too large a body", post(900'000, 200'000)},
+                                                         {"a request that stalls", "GET / HT"}};
+  for (const auto& [what, bytes] : refused) {
+    EXPECT_EQ(front.client(bytes)->read().status, 0) << what;
+    EXPECT_EQ(front.client("GET / HTTP/1.1\r\nHost: a\r\n\r\n")->read().status, 200) << "after " << what;
+  }
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ TEST_F(Scenes, APictureIsRenderedOnceHoweverOftenItIsAskedForWhileThereIsRoom) {
   Service own;
   const auto renders = [&] { return own.app().metrics().value("tilelight_renders_total", "state=\"done\""); };
   const std::string path = "/v1/scenes/" + store(own, small_scene()) + "/image";
-  const auto first = own.get(path);
+  const auto first = own.get(path, {{"Prefer", "wait=20"}});
+  EXPECT_EQ(first.header("preference-applied"), "") << "a cache would tell it to everybody";
   for (const char* accept : {"*/*", "image/*", "image/avif,image/webp,image/*;q=0.8"}) {
     const auto again = own.get(path, {{"Accept", accept}});
     EXPECT_EQ(again.body, first.body);
@@ -109,6 +110,7 @@ TEST_F(Scenes, APictureIsRenderedOnceHoweverOftenItIsAskedForWhileThereIsRoom) {
   EXPECT_TRUE(pictures.find("a") && pictures.find("c"));
   pictures.put("d", picture(4000));
   EXPECT_FALSE(pictures.find("d")) << "larger than all the room";
+  EXPECT_TRUE(pictures.find("a") && pictures.find("c")) << "nor does it drive out the others";
 }
 
 TEST_F(Scenes, ABadQueryIs422WithAPointerIntoTheView) {

@@ -167,14 +167,15 @@ TEST_F(SessionsOfService, AClientThatLeavesBeforeItsSceneIsCompiledIsNoErrorOfTh
   EXPECT_TRUE(own.metric_reaches("tilelight_http_requests_total{route=\"/v1/plan\",status=\"408\"}", 1));
 }
 
-// A render that has failed before its first pass.
-class FailedRender final : public Render {
+// A render that has failed, or still runs, before its first pass.
+class BlankRender final : public Render {
  public:
+  explicit BlankRender(RenderState state) : state_(state) {}
   void cancel() override {}
   RenderProgress progress() const override {
     RenderProgress progress;
-    progress.state = RenderState::failed;
-    progress.error = "a tile broke";
+    progress.state = state_;
+    if (state_ == RenderState::failed) progress.error = "a tile broke";
     return progress;
   }
   RenderReport report() const override { return {}; }
@@ -183,17 +184,21 @@ class FailedRender final : public Render {
   std::shared_ptr<const Image> image() const override { return nullptr; }
   std::string lines_svg() const override { return {}; }
   bool wait_ms(double) const override { return true; }
+
+ private:
+  const RenderState state_;
 };
 
 class FailingSession final : public server::Session {
  public:
   using Session::Session;
+  RenderState state = RenderState::failed;
   bool throws = false;
 
  private:
   std::shared_ptr<Render> start_render(const View&, RenderOptions) override {
     if (throws) throw std::bad_alloc();
-    return std::make_shared<FailedRender>();
+    return std::make_shared<BlankRender>(state);
   }
 };
 
@@ -211,6 +216,23 @@ TEST_F(SessionsOfService, WhoWaitsForAFrameOfARenderThatFailsIsToldSo) {
   ASSERT_TRUE(thrown);
   EXPECT_EQ(thrown->view_seq, 2);
   EXPECT_FALSE(thrown->error.empty());
+}
+
+TEST_F(SessionsOfService, AFailureIsNotToldOnceAnotherViewWasSent) {
+  TilePool pool(1);
+  const auto session = std::make_shared<FailingSession>("id", pool, nullptr, View{});
+  ASSERT_TRUE(session->set_view(1, View{}, false));
+  session->state = RenderState::running;
+  ASSERT_TRUE(session->set_view(2, View{}, false));
+  EXPECT_FALSE(session->wait_frame(0, {}, server::after_ms(0.0)));
+}
+
+TEST_F(SessionsOfService, AFrameTellsWhichWaitWasGrantedToTheMillisecond) {
+  const std::string frame = open_session(*service_, small_scene()) + "/frame?after=";
+  EXPECT_EQ(service_->get(frame + "0", {{"Prefer", "wait=600"}}).header("preference-applied"), "wait=40");
+  const auto none = service_->get(frame + "1000", {{"Prefer", "wait=0.05"}});
+  EXPECT_EQ(none.status, 204);
+  EXPECT_EQ(none.header("preference-applied"), "wait=0.05");
 }
 
 TEST_F(SessionsOfService, ABadViewIs422AndChangesNothing) {

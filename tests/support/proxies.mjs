@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // nginx, HAProxy and Varnish on free ports in a folder of their own, by the files of docker/proxies, in which addresses,
-// ports and file names are replaced and nothing else.
+// ports, file names and time-outs are replaced and nothing else.
 import assert from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { mkdtemp, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
@@ -8,19 +8,11 @@ import net from 'node:net';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { promisify } from 'node:util';
+import { freePort } from './server.mjs';
 
 export const kSite = 'render.example';
 const kFiles = new URL('../../docker/proxies/', import.meta.url).pathname;
 const kPatienceMs = 20_000;
-
-export function freePort() {
-  return new Promise((resolve) => {
-    const server = net.createServer().listen(0, '127.0.0.1', () => {
-      const { port } = server.address();
-      server.close(() => resolve(port));
-    });
-  });
-}
 
 // A file of docker/proxies with each [from, to] replaced, all of which must be there.
 export async function configFile(name, replacements) {
@@ -61,16 +53,17 @@ async function start(folder, port, program, args) {
   child.on('error', (error) => { child.output += error; child.exitCode ??= 127; });
   for (const stream of [child.stdout, child.stderr]) stream.on('data', (text) => { child.output += text; });
   const ended = new Promise((resolve) => { child.once('exit', resolve); });
-  await listens(port, child);
-  return {
-    port,
-    output: () => child.output,
-    stop: async () => {
-      child.kill('SIGTERM');
-      await ended;
-      await rm(folder, { recursive: true, force: true });
-    },
+  const stop = async () => {
+    if (child.exitCode === null && child.kill('SIGTERM')) await ended;
+    await rm(folder, { recursive: true, force: true });
   };
+  try {
+    await listens(port, child);
+  } catch (error) {
+    await stop();
+    throw error;
+  }
+  return { port, output: () => child.output, stop };
 }
 
 const newFolder = () => mkdtemp(path.join(tmpdir(), 'tilelight-proxy-'));

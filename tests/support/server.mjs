@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tilelightd of its own on free ports, for tests that are written in JavaScript.
 import { spawn } from 'node:child_process';
+import net from 'node:net';
+
+// A port that nobody has now.
+export function freePort() {
+  return new Promise((resolve) => {
+    const probe = net.createServer().listen(0, '127.0.0.1', () => {
+      const { port } = probe.address();
+      probe.close(() => resolve(port));
+    });
+  });
+}
 
 // Starts the server with further `flags`; {url, port, adminPort, output(), isAlive(), stop()}. The promise fails with the
 // server's output where it ends before it listens.

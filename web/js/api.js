@@ -107,7 +107,7 @@ export async function planOf(document) {
 // A finished picture of a whole scene document. Takes as long as it takes: a render that the server turned into a job
 // is waited for.
 export async function renderImage(document, format = 'image/png') {
-  const headers = { ...kJson, Accept: format, Prefer: 'wait=60' };
+  const headers = { ...kJson, Accept: format };
   const response = await call('/v1/renders', { method: 'POST', headers, body: JSON.stringify(document) });
   if (response.status !== 202) return blobOf(response);
   const job = await jobOf(response);

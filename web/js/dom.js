@@ -17,8 +17,9 @@ export function el(tag, attributes = {}, ...children) {
 }
 
 // Calls `act()` whenever the screen has another number of pixels for one of CSS: the page went to another screen, or the
-// browser zoomed. A query tells only that its own ratio is no more, so each change needs a new one. Where the ratio is
-// emulated, Chromium changes it and tells nobody; therefore it is also looked at now and then.
+// browser zoomed. A query tells only that its own ratio is no more, so each change needs a new one. Chromium fires no
+// event where the ratio is emulated (device mode of its developer tools, automated browsers), so the ratio is also read
+// twice a second: a comparison of two numbers.
 export function watchPixelRatio(act) {
   let known = devicePixelRatio;
   const look = () => {

@@ -71,7 +71,7 @@ let method = {};  // what draws the picture, as a wish of methods.js; the addres
 let words = kNoWords;
 let scenes = [];
 let picker = null;
-let questions = 0;  // of foretell()
+let latestPrediction = 0;  // number of the last question of foretell()
 
 // Shows the scene whose text `load()` gives in place of the present one; throws what the server has against it.
 // `camera`, `keepsView` and `adaptMethod` as of Viewer.
@@ -149,9 +149,9 @@ async function openOrExplain(load, options) {
 // several answers on the way only that to the last question counts.
 async function foretell() {
   if (byId('plan-panel').hidden || !shown.text) return;
-  const question = ++questions;
+  const question = ++latestPrediction;
   const { predicted } = await api.planOf(stillDocument(shown.text, viewer.still)).catch(() => ({}));
-  if (predicted && question === questions) showPrediction(byId('plan-body'), predicted);
+  if (predicted && question === latestPrediction) showPrediction(byId('plan-body'), predicted);
 }
 
 function pick(scene) {

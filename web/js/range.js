@@ -7,7 +7,7 @@ import { add, largest, length, scale, sub } from './vec.js';
 const kReach = 100;           // sizes of the scene; from there it is a speck of a hundredth of the picture
 const kNearest = 2 ** -32;    // of the largest coordinate: a double has 2^20 steps on the way from target to eye
 const kMostCoordinate = 1e30; // of the scene language
-const kAbout = 10;            // by so much a scene may shrink or grow under a camera that stays
+const kMaxScaleChange = 10;   // by so much a scene may shrink or grow under a camera that stays
 
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 const sizeOf = (camera) => (isOrthographic(camera) ? camera.height : length(sub(camera.position, camera.target)));
@@ -32,8 +32,8 @@ export function moved(camera, part, cursor, range) {
 // Whether a camera that was moved in one scene may stay in another one: it lies about where the hand could take it.
 export function isAbout(camera, range) {
   const size = sizeOf(camera);
-  return size * kAbout >= nearest(camera, range) && size <= kAbout * farthest(camera, range)
-    && length(sub(camera.target, range.center)) <= kAbout * range.reach;
+  return size * kMaxScaleChange >= nearest(camera, range) && size <= kMaxScaleChange * farthest(camera, range)
+    && length(sub(camera.target, range.center)) <= kMaxScaleChange * range.reach;
 }
 
 function nearest({ target }, { extent }) {

@@ -18,7 +18,8 @@ export function withFen(text, fen) {
   if (scene !== undefined && !position) return null;
   for (const { 0: whole, 1: key, 2: value, index } of text.matchAll(kFen)) {
     if (position && parsed(value) !== position.fen) continue;
-    return text.slice(0, index) + key + JSON.stringify(fen) + text.slice(index + whole.length);
+    const changed = text.slice(0, index) + key + JSON.stringify(fen) + text.slice(index + whole.length);
+    if (!position || findPosition(parsed(changed))?.fen === fen) return changed;
   }
   if (!position || position.fen !== undefined || !kChess.test(text)) return null;
   return text.replace(kChess, (type) => `${type}, "fen": ${JSON.stringify(fen)}`);

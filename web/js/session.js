@@ -137,14 +137,18 @@ export class ViewSession {
   async #poll(id) {
     const polling = new AbortController();
     this.#polling = polling;
-    try {
-      while (!polling.signal.aborted && !this.#isFinal) {
+    while (!polling.signal.aborted && !this.#isFinal) {
+      const { seq } = this.#sent;
+      try {
         const format = this.#wanted.moving ? 'image/jpeg' : 'image/png';
         const frame = await this.#api.nextFrame(id, this.#frameNumber, format, polling.signal);
         if (frame && !polling.signal.aborted) this.#take(frame);
+      } catch (error) {
+        if (error.name === 'AbortError') break;
+        if (isRefusal(error) && seq < this.#sent.seq) continue;  // of a view that a newer one has replaced since
+        this.#fail(id, error, seq);
+        break;
       }
-    } catch (error) {
-      if (error.name !== 'AbortError') this.#fail(id, error);
     }
     if (this.#polling === polling) this.#polling = null;
   }

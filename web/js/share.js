@@ -13,11 +13,12 @@ export function stillDocument(sceneText, { camera, image, rule = null, method = 
 }
 
 // A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
-// changes nothing; no line of JSON can be its end mark.
+// changes nothing; no line of JSON can be its end mark. A picture that takes longer than a request waits (30 seconds) is
+// answered with a job, and tilelight.png then holds that job's JSON.
 export function curlCommand(baseUrl, document) {
   return [
     `curl --silent --show-error --fail '${baseUrl}/v1/renders' \\`,
-    "  --header 'Content-Type: application/json' --header 'Accept: image/png' --header 'Prefer: wait=60' \\",
+    "  --header 'Content-Type: application/json' --header 'Accept: image/png' \\",
     "  --output tilelight.png --data-binary @- <<'SCENE'",
     JSON.stringify(document),
     'SCENE',

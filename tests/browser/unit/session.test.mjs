@@ -21,14 +21,20 @@ function playServer() {
       server.views.push({ id, ...view });
     },
     nextFrame: (id, after, format, signal) => new Promise((resolve, reject) => {
-      waiting.push(resolve);
+      waiting.push({ resolve, reject });
       signal.addEventListener('abort', () => reject(Object.assign(new Error(), { name: 'AbortError' })));
     }),
   };
   server.answer = async (viewSeq, isFinal = true) => {
     const answered = waiting;
     waiting = [];
-    answered.forEach((resolve) => resolve({ number: ++number, viewSeq, isFinal, timings: {} }));
+    answered.forEach(({ resolve }) => resolve({ number: ++number, viewSeq, isFinal, timings: {} }));
+    await turn();
+  };
+  server.refuseFrame = async (error) => {
+    const answered = waiting;
+    waiting = [];
+    answered.forEach(({ reject }) => reject(error));
     await turn();
   };
   server.session = new ViewSession({
@@ -94,7 +100,8 @@ test('the last small picture is seen before the full one is asked for', async ()
   assert.deepEqual(sentX(server), [0, 1]);
 });
 
-test('a moving view that never comes is given up for a newer one', async (t) => {
+// A server whose moving view 1 did not come in time, and of which view 2 was wanted meanwhile.
+async function playOverdue(t) {
   const tick = stopTimers(t);
   const server = playServer();
   await server.session.open(kScene, () => moving(0));
@@ -102,18 +109,17 @@ test('a moving view that never comes is given up for a newer one', async (t) => 
   server.nowMs = kOverdueMs;
   tick(kOverdueMs);
   await turn();
+  return server;
+}
+
+test('a moving view that never comes is given up for a newer one', async (t) => {
+  const server = await playOverdue(t);
   assert.deepEqual(sentX(server), [0, 1]);
   assert.equal(server.overdue, 1);
 });
 
 test('a late frame of an older view is no end of the newer one that is on its way', async (t) => {
-  const tick = stopTimers(t);
-  const server = playServer();
-  await server.session.open(kScene, () => moving(0));
-  server.session.look(still(1));
-  server.nowMs = kOverdueMs;
-  tick(kOverdueMs);
-  await turn();
+  const server = await playOverdue(t);
   await server.answer(1, true);
   await server.answer(2, true);
   assert.deepEqual(server.frames.map((event) => event.moving), [true, false]);
@@ -224,6 +230,19 @@ test('a refusal that comes after a newer view went out is of no account', async 
   assert.ok(!server.states.includes('failed'));
   await server.answer(3);
   assert.equal(server.frames.at(-1).frame.viewSeq, 3, 'its frames are still waited for');
+});
+
+test('a frame that is refused after a newer view went out is of no account, and one of the newest view is', async () => {
+  const server = playServer();
+  await server.session.open(kScene, () => still(0));
+  server.session.look(still(2));
+  await turn();
+  await server.refuseFrame(new Problem(500, { detail: 'the render of this view failed' }));
+  assert.ok(!server.states.includes('failed'));
+  await server.answer(2, false);
+  assert.equal(server.frames.at(-1).frame.viewSeq, 2, 'its frames are still waited for');
+  await server.refuseFrame(new Problem(500, { detail: 'the render of this view failed' }));
+  assert.equal(server.states.at(-1), 'failed');
 });
 
 test('what was said of a refused scene is taken back when the one before is moved and seen', async () => {

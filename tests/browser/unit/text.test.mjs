@@ -65,6 +65,13 @@ test('of two keys that are called fen the position\'s own is replaced', () => {
   assert.equal(withFen(text, '9'), text.replace(kStart, '9'));
 });
 
+test('of two keys that are called fen and have one value the position\'s own is replaced', () => {
+  const text = kText.replace('{\n', `{\n  "extras": {"fen": "${kStart}"},\n`);
+  const changed = JSON.parse(withFen(text, '9'));
+  assert.equal(findPosition(changed).fen, '9');
+  assert.equal(changed.extras.fen, kStart);
+});
+
 test('a text without a position has no place for a FEN', () => {
   for (const text of ['{"objects": [{"type": "sphere"}]}', '{"objects": [', '{"objects": 3}', 'null', '']) {
     assert.equal(withFen(text, '8/8/8/8/8/8/8/8'), null);
@@ -165,6 +172,7 @@ test('a method goes into a link and into a still picture, over what the scene sa
 
 test('a curl command holds the scene where the shell changes nothing', () => {
   const command = curlCommand('http://127.0.0.1:1', { name: "it's $HOME `x`" });
+  assert.doesNotMatch(command, /Prefer/, 'the server waits as long as it does by itself');
   assert.match(command, /<<'SCENE'\n\{"name":"it's \$HOME `x`"\}\nSCENE\n$/);
 });
 
