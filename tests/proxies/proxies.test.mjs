@@ -93,6 +93,14 @@ for (const [name, startProxy] of [['nginx', startDocumentedNginx], ['HAProxy', s
       }
     });
 
+    test('an encoded separator is data of its segment, under the path too', async (t) => {
+      const client = clientOf(t);
+      for (const base of ['', '/render']) {
+        assert.equal((await client.ask('GET', `${base}/v1/limits`)).status, 200);
+        assert.equal((await client.ask('GET', `${base}/v1%2Flimits`)).status, 404);
+      }
+    });
+
     test('events come as they happen, and the stream ends with the render', async (t) => {
       const client = clientOf(t);
       const { headers: { location } } = await client.ask('POST', '/v1/renders', { body: kEndless });
