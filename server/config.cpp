@@ -10,6 +10,9 @@
 namespace tilelight::server {
 namespace {
 
+// Of host names; an underscore stands in some.
+constexpr std::string_view kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._";
+
 std::string with(std::string_view name, char from, char to) {
   std::string out(name);
   std::replace(out.begin(), out.end(), from, to);
@@ -70,7 +73,11 @@ Result<void> set_quiet(Config& config, const std::string& text) {
 Result<void> set_allowed_hosts(Config& config, const std::string& text) {
   std::stringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
-    if (!word.empty()) config.allowed_hosts.push_back(word);
+    if (word.empty()) continue;
+    if (word.find_first_not_of(kNameLetters) != std::string::npos)
+      return fail("bad_value",
+                  "found '" + word + "'; allowed: names of hosts, such as render.example, without scheme, port or '*'");
+    config.allowed_hosts.push_back(word);
   }
   return {};
 }

@@ -57,6 +57,7 @@ int run(int argc, const char* const* argv) {
   sigaddset(&ending, SIGINT);
   pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a log may reach the limit of a file's size: the write fails, and is counted
   raise_descriptor_limit();
   keep_freed_memory();
 

@@ -52,14 +52,15 @@ Vec3 distance_off(const Mat4& m, const Vec3& p, const Vec3& place) {
   return off;
 }
 
-Vec3 rounding_of(const BoxShape& box, const Mat4& world_from_shape, const Mat4& world_from_local) {
+Vec3 rounding_of(const BoxShape& box, const Object& object, const Mat4& world_from_local) {
   Vec3 sides(0.0), out(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     sides[axis] = 0.5 * (std::abs(two_sum(box.min[axis], box.max[axis]).lo) +
                          std::abs(two_sum(box.max[axis], -box.min[axis]).lo));
   }
-  for (int column = 0; column < 3; ++column) out += glm::abs(Vec3(world_from_shape[column])) * sides[column];
-  return out + distance_off(world_from_shape, 0.5 * (box.min + box.max), Vec3(world_from_local[3]));
+  for (int column = 0; column < 3; ++column) out += glm::abs(Vec3(object.world_from_shape[column])) * sides[column];
+  const Vec3 middle = 0.5 * (box.min + box.max) - object.pivot;
+  return out + distance_off(object.world_from_shape, middle, Vec3(world_from_local[3]));
 }
 
 struct GlassMesh {
@@ -85,7 +86,9 @@ class BodyMaker {
   Body& add(BodyKind kind, const Mat4& placement, MaterialId material, const std::string& part = {}) {
     Body body;
     body.kind = kind;
-    body.world_from_local = object().world_from_shape * placement;
+    Mat4 pivot_from_local = placement;
+    pivot_from_local[3] -= Vec4(object().pivot, 0.0);
+    body.world_from_local = object().world_from_shape * pivot_from_local;
     body.material = material;
     body.object = static_cast<uint32_t>(index_);
     body.name = "objects/" + std::to_string(index_) + (part.empty() ? "" : "/" + part);
@@ -102,7 +105,7 @@ class BodyMaker {
   void add_box(const BoxShape& box, MaterialId material, const std::string& part) {
     Body& body = add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part);
     body.half = 0.5 * (box.max - box.min);
-    body.rounding = rounding_of(box, object().world_from_shape, body.world_from_local);
+    body.rounding = rounding_of(box, object(), body.world_from_local);
     body.is_solid = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
   }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/characters.h"
 #include "renderer/base/standard_floats.h"
 #include "renderer/compile/tessellate.h"
 #include "renderer/film/tone.h"
@@ -106,7 +107,7 @@ Result<std::string> explain_pixel_json(const std::shared_ptr<const CompiledScene
                     {"untraced_weight", counts.untraced_weight},
                     {"rays_truncated", explainer.is_truncated},
                     {"rays", explainer.rays}};
-  return out.dump();
+  return printable_json(out.dump());
 }
 
 }  // namespace tilelight

@@ -54,7 +54,7 @@ PassSchedule::Next PassSchedule::next(const Standing& standing) const {
   const double kLeast = std::max(1.0, standing.spp / 4.0) / 64.0;
   if (!replay_.empty() && standing.passes >= static_cast<int>(replay_.size())) return over("passes");
   if (samples_ - standing.spp < kLeast) return over("samples");
-  if (standing.rmse <= rmse_ && standing.spp >= kFirstForAll) return over("rmse");
+  if (rmse_ > 0.0 && standing.rmse <= rmse_ && standing.spp >= kFirstForAll) return over("rmse");
   if (!replay_.empty()) return replay(standing);
   if (standing.spp < 1.0) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();

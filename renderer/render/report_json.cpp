@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/characters.h"
 #include "renderer/base/hash.h"
 #include "renderer/render/render.h"
 
@@ -84,7 +85,7 @@ std::string report_json(const RenderReport& report, const Plan& plan, const Repo
       {"threads", report.threads},
       {"kernel", plan.kernel},
       {"isa", plan.isa}};
-  return out.dump();
+  return printable_json(out.dump());
 }
 
 }  // namespace tilelight

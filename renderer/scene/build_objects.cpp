@@ -21,30 +21,30 @@ class ObjectBuilder {
     const std::string type = read_text(value, "type");
     Object object;
     object.name = read_text(value, "name");
-    Vec3 pivot(0.0);
+    Vec3 center(0.0);
     if (type == "sphere") {
-      pivot = build_sphere(value, object);
+      center = build_sphere(value, object);
     } else if (type == "cube") {
-      pivot = build_cube(value, object);
+      center = build_cube(value, object);
     } else if (type == "box") {
-      pivot = build_box(value, object);
+      center = build_box(value, object);
     } else if (type == "plane") {
-      pivot = build_plane(value, object);
+      center = build_plane(value, object);
     } else if (type == "mesh") {
       build_mesh(value, object);
     } else if (type == "chess_piece") {
-      pivot = build_chess_piece(value, object);
+      center = build_chess_piece(value, object);
     } else {
       build_chess_position(value, object);
     }
-    object.world_from_shape = read_transform(value, pivot, problems_);
+    read_transform(value, center, object, problems_);
     return object;
   }
 
   bool any_visible() const { return any_visible_; }
 
  private:
-  // These fill in the shape and the material, and answer the pivot.
+  // These fill in the shape and the material, and answer the center.
 
   Vec3 build_sphere(Value value, Object& object) {
     SphereShape sphere;

@@ -106,8 +106,11 @@ using Shape = std::variant<SphereShape, BoxShape, PlaneShape, MeshShape, ChessPi
 struct Object {
   std::string name;
   Shape shape;
-  MaterialId material = 0;     // unused by ChessPositionShape
-  Mat4 world_from_shape{1.0};  // the user's transform, after the shape's own placement; never singular
+  MaterialId material = 0;  // unused by ChessPositionShape
+  // The user's transform, after the shape's own placement; never singular. It takes the shape with `pivot` in the
+  // origin: about a point far away, p - linear * p would round what is near to it.
+  Mat4 world_from_shape{1.0};
+  Vec3 pivot{0.0};
   bool operator==(const Object&) const = default;
 };
 

@@ -125,26 +125,29 @@ bool is_singular(const Mat3& linear) {
   return std::fabs(glm::determinant(m)) <= kRounding;
 }
 
-Mat4 read_transform(Value object, const Vec3& pivot, Problems& problems) {
-  if (const Value matrix = find_accepted(object, "matrix")) return read_matrix(matrix, problems);
-  const Vec3 translation = read_vector(object, "translate", Vec3(0.0));
-  // Without a scale or rotation the pivot must not round the translation.
-  if (!object.find("scale") && !object.find("rotate_deg") && !object.find("rotate_quat")) {
-    return affine(Mat3(1.0), translation);
+void read_transform(Value value, const Vec3& center, Object& object, Problems& problems) {
+  if (const Value matrix = find_accepted(value, "matrix")) {
+    object.world_from_shape = read_matrix(matrix, problems);
+    return;
   }
-  const Mat3 linear = read_rotation(object) * read_scale(object);
-  const Mat4 world_from_shape = affine(linear, (pivot - linear * pivot) + translation);
-  if (!is_moderate(world_from_shape) || is_singular(linear)) {
-    const Value scale = object.find("scale");
-    problems.add(scale ? scale : object,
-                 {"out_of_range",
-                  "found a transform whose numbers leave the range of doubles; allowed: entries that "
-                  "are neither all lost to rounding nor beyond " +
-                      number_text(kMaxEntry),
-                  {},
-                  ""});
+  const Vec3 translation = read_vector(value, "translate", Vec3(0.0));
+  // Without a scale or rotation the center must not round the translation.
+  if (!value.find("scale") && !value.find("rotate_deg") && !value.find("rotate_quat")) {
+    object.world_from_shape = affine(Mat3(1.0), translation);
+    return;
   }
-  return world_from_shape;
+  const Mat3 linear = read_rotation(value) * read_scale(value);
+  object.world_from_shape = affine(linear, center + translation);
+  object.pivot = center;
+  if (is_moderate(object.world_from_shape) && !is_singular(linear)) return;
+  const Value scale = value.find("scale");
+  problems.add(scale ? scale : value,
+               {"out_of_range",
+                "found a transform whose numbers leave the range of doubles; allowed: entries that "
+                "are neither all lost to rounding nor beyond " +
+                    number_text(kMaxEntry),
+                {},
+                ""});
 }
 
 }  // namespace tilelight

@@ -5,12 +5,14 @@
 #include "renderer/base/vec.h"
 #include "renderer/scene/document.h"
 #include "renderer/scene/problems.h"
+#include "renderer/scene/scene.h"
 
 namespace tilelight {
 
-// world_from_shape of a checked object: `scale`, then the rotation, both about `pivot`, then `translate`; or `matrix`
-// as it stands. Reports a matrix that is singular or not affine, and a result that leaves the range of numbers.
-Mat4 read_transform(Value object, const Vec3& pivot, Problems& problems);
+// world_from_shape and pivot of a checked object: `scale`, then the rotation, both about `center`, then `translate`; or
+// `matrix` as it stands. Reports a matrix that is singular or not affine, and a result that leaves the range of
+// numbers.
+void read_transform(Value value, const Vec3& center, Object& object, Problems& problems);
 
 // A rotation about an axis of any length but 0, counter-clockwise seen against it; exact at quarter turns.
 Mat3 rotation_about(const Vec3& axis, double angle_deg);

@@ -51,6 +51,13 @@ bool has_partial_fresnel(const Subject& s) {
   return any_medium(s, [](const Material& m) { return m.fresnel && m.ior != 1.0 && m.reflection != Color(1.0); });
 }
 
+bool bends_at_curves(const Subject& s) {
+  return any_body(s, [&](const Body& body) {
+    const Material& m = material_of(s, body);
+    return body.is_solid && is_clear(m) && m.ior != 1.0 && body.mesh && !body.mesh->corner_normals.empty();
+  });
+}
+
 bool casts_shadow(const Subject& s, const Light& light) { return light.shadow && s.view.render.shadows; }
 
 bool is_rounded_by_shadows(const Subject& s) {
@@ -196,6 +203,11 @@ const std::array kFeatures = {
     PovFeature{"mirrors", "material.reflection"},
     PovFeature{"transmission", "material.transmission"},
     PovFeature{"refraction", "material.ior"},
+    PovFeature{"refraction by facets that stand for a curve", "mesh_data.normals mesh_data.crease_deg",
+               PovSupport::approximate,
+               "where the curve would trap light that its facets let out, POV-Ray reflects it on and on; the fewer the "
+               "facets, the more.",
+               bends_at_curves},
     PovFeature{"total reflection of weight 1", "material.reflection material.transmission"},
     PovFeature{"total reflection of other weight", "material.reflection material.transmission", PovSupport::approximate,
                "POV-Ray reflects all light there, in place of reflection + transmission.",

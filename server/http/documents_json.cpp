@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/base/characters.h"
 #include "server/clock.h"
 
 namespace tilelight::server {
@@ -10,7 +11,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+// Names of a scene's author come with it: a terminal that shows the answer acts on none of their characters.
+std::string text_of(const Json& json) {
+  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 Json time_or_null(int64_t wall_ms) { return wall_ms > 0 ? Json(rfc3339(wall_ms)) : Json(nullptr); }
 

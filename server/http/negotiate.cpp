@@ -42,19 +42,14 @@ std::vector<MediaRange> accepted(const Request& request) {
   std::vector<MediaRange> ranges;
   for (const std::string& item : header_list(request, "accept")) {
     MediaRange range;
-    const std::string text = lower(item);
-    size_t at = text.find(';');
-    range.type = trim(std::string_view(text).substr(0, at));
-    while (at != std::string::npos) {
-      const size_t next = text.find(';', at + 1);
-      const std::string_view parameter =
-          trim(std::string_view(text).substr(at + 1, next == std::string::npos ? next : next - at - 1));
-      if (parameter.rfind("q=", 0) == 0) {
-        double quality = 0.0;
-        std::from_chars(parameter.data() + 2, parameter.data() + parameter.size(), quality);
-        range.quality = std::clamp(quality, 0.0, 1.0);
-      }
-      at = next;
+    const std::vector<std::string> parts = split_unquoted(lower(item), ';');  // the type, and its parameters
+    if (parts.empty()) continue;
+    range.type = parts.front();
+    for (const std::string& parameter : parts) {
+      if (!parameter.starts_with("q=")) continue;
+      double quality = 0.0;
+      std::from_chars(parameter.data() + 2, parameter.data() + parameter.size(), quality);
+      range.quality = std::clamp(quality, 0.0, 1.0);
     }
     ranges.push_back(std::move(range));
   }

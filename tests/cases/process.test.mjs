@@ -423,6 +423,26 @@ describe("others' text", () => {
     }
   });
 
+  test('cannot steer the terminal that shows an answer about a scene', async () => {
+    const name = `glass${steering}`;
+    const scene = { image: { width: 8, height: 8 }, materials: { [name]: {}, [`unused${steering}`]: {} },
+      objects: [{ type: 'sphere', material: name, name: `ball${steering}` }] };
+    const server = await startServer();
+    const plan = await (await post(server, '/v1/plan', scene)).text();
+    await server.stop();
+    const path = file('named.json', JSON.stringify(scene));
+    const shown = [plan];
+    for (const args of [['plan', path], ['plan', path, '--json'], ['render', path, '--pixel', '4,4'],
+      ['render', path, '-o', join(folder, 'named.png'), '--report', '-']]) {
+      const { code, stdout, stderr } = await tilelight(...args);
+      assert.equal(code, 0, stderr);
+      shown.push(stdout, stderr);
+    }
+    for (const text of shown) assert.doesNotMatch(text, /(?!\n)[\p{Cc}\p{Cf}\p{Zl}\p{Zp}\p{Cn}]/u);
+    const told = JSON.stringify(JSON.parse(plan));
+    assert.ok(told.includes(JSON.stringify(`unused${steering}`).slice(1, -1)), 'and reads back to what was sent');
+  });
+
   test('cannot steer the terminal that shows a problem or what the command says', async () => {
     const scene = { objects: [{ type: steering }], [`x${steering}`]: 1 };
     const server = await startServer();

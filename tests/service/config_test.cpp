@@ -35,6 +35,9 @@ TEST(Config, UnknownNamesAndBadValuesRefuseToStartAndAreNamed) {
   EXPECT_NE(load({"--port", "70000"}).error().detail.find("70000"), std::string::npos);
   EXPECT_FALSE(load({"--max-results", "10001"})) << "more than there are records to find them by";
   EXPECT_NE(load({"--data-dir", "/tmp/x"}).error().detail.find(":memory:"), std::string::npos);
+  for (const char* hosts : {"https://render.example", "a.example,render.example:443", "*", "*.example"})
+    EXPECT_NE(load({"--allowed-hosts", hosts}).error().detail.find("names of hosts"), std::string::npos) << hosts;
+  EXPECT_TRUE(load({"--allowed-hosts", "render.example,xn--bcher-kva.example,my_host"}));
   EXPECT_NE(load({"--config", "/nowhere.json"}).error().detail.find("/nowhere.json"), std::string::npos);
 }
 

@@ -83,6 +83,7 @@ TEST(Accept, PicksTheBestOfferByQualityAndSpecificity) {
   EXPECT_EQ(best("IMAGE/JPEG ; q=0.5, text/html"), "image/jpeg");
   EXPECT_EQ(best("image/*;q=0.5, image/jpeg"), "image/jpeg");
   EXPECT_EQ(best("image/png;q=0, */*"), "image/jpeg");
+  EXPECT_EQ(best(R"(image/png;x=";q=0")"), "image/png");
   EXPECT_EQ(best("text/html"), "none");
   EXPECT_EQ(best_offer({}, offers), "image/png");
 }

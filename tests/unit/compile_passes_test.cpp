@@ -377,6 +377,22 @@ TEST_F(Compile, AMeshFarFromTheOriginKeepsItsPlaceAmongTheOthers) {
   EXPECT_EQ(compiled(Vec3(0.0)), compiled(Vec3(0x1p50, -0x1p51, 0x1p49)));
 }
 
+// What turns and grows about its own middle stays there, however far that is and however much it grows.
+TEST_F(Compile, ABodyThatIsScaledAboutItsMiddleKeepsIt) {
+  const Vec3 middle(1e15, 1e15 / 3.0, -1e15 / 7.0);
+  Scene scene = one_sphere();
+  Object object = sphere_at(middle, 1.0);
+  object.pivot = middle;
+  object.world_from_shape = Mat4(Mat3(0.0, 0.0, -1e15, 0.0, 1e15, 0.0, 1e15, 0.0, 0.0));
+  object.world_from_shape[3] = Vec4(middle, 1.0);
+  scene.objects = {object};
+  object.shape = BoxShape{middle - 1.0, middle + 1.0};
+  scene.objects.push_back(object);
+  object.shape = PlaneShape{middle, Vec3(0, 1, 0)};
+  scene.objects.push_back(object);
+  for (const Body& body : make_bodies(scene)) EXPECT_EQ(Vec3(body.world_from_local[3]), middle);
+}
+
 TEST_F(Compile, TheLengthsOfDirectionsSayNothingHoweverSmall) {
   Scene scene = one_sphere();
   scene.lights[0].direction = {0, -1e-200, 0};

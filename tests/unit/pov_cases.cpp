@@ -191,6 +191,9 @@ std::vector<PovCase> of_materials() {
        R"({"camera": {"position": [0.5, 1.1, 0.6], "target": [0, 0.8, 0], "fov_y_deg": 70},
            "objects": [{"type": "plane"}, {"type": "cube", "center": [-2, 0, -1], "size": 1.5},
            {"type": "sphere", "center": [0, 1.2, 0], "material": {"diffuse": 0, "reflection": 0.2, "transmission": 0.8}}]})"},
+      {"refraction by facets that stand for a curve", "a pawn of few",
+       on_plane(R"({"type": "chess_piece", "piece": "pawn", "detail": 8, "material":
+                    {"diffuse": 0, "reflection": 0, "transmission": 1, "ior": 1.5}})")},
       {"total reflection of weight 1", "a prism",
        on_plane(R"({"type": "cube", "center": [0, 1.2, 0], "size": 1.4, "material":
                     {"diffuse": 0, "reflection": 0, "transmission": 1, "ior": 1.6}, )" +

@@ -430,6 +430,16 @@ TEST(PassSchedule, CutsAPassToTheTimeThatIsLeft) {
   EXPECT_EQ(end.stop, "time");
 }
 
+// An error of 0 is what the samples so far tell: one that is smaller than they are apart may have been missed.
+TEST(PassSchedule, TakesTheSamplesThatWereAskedForWhereNoErrorWas) {
+  RenderSpec spec;
+  spec.samples = 1000;
+  for (const bool adaptive : {false, true}) {
+    spec.adaptive = adaptive;
+    EXPECT_EQ(PassSchedule(spec).next({.passes = 5, .spp = 16, .rmse = 0.0}).samples, 16);
+  }
+}
+
 TEST(PassSchedule, EndsOnceTheUpperEndOfTheErrorIsAsAsked) {
   RenderSpec spec;
   spec.samples = 1000;

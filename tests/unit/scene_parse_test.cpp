@@ -19,7 +19,7 @@ const Color& plain(const Paint& paint) { return std::get<Color>(paint); }
 void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
 }
-Vec3 moved(const Object& object, const Vec3& p) { return transform_point(object.world_from_shape, p); }
+Vec3 moved(const Object& object, const Vec3& p) { return transform_point(object.world_from_shape, p - object.pivot); }
 
 TEST(ParseScene, ReadsADocumentWithEverythingInIt) {
   const ParsedScene p = parsed(full_document());
@@ -128,6 +128,11 @@ TEST(Transforms, ActAboutThePivotOfEveryShape) {
     expect_near(moved(object, {1, 2, 3}), {1, 7, 3});
     expect_near(moved(object, {2, 2, 3}), {1, 7, 1});  // +x from the pivot, stretched by 2, turned to -z
   }
+}
+
+TEST(Transforms, AboutAPointFarAwayRoundNothingNearIt) {
+  const ParsedScene p = parsed(scene_of(R"({"type": "cube", "center": [1e15, -3e14, 7], "size": 2, "scale": 1e15})"));
+  EXPECT_EQ(moved(p.scene.objects[0], {1e15, -3e14, 7}), Vec3(1e15, -3e14, 7));
 }
 
 TEST(Transforms, OfMeshesActAboutTheirOrigin) {

@@ -56,6 +56,7 @@ void scale(Object& object, double s) {
     object.world_from_shape = uniform_scale(s) * object.world_from_shape;
   } else {  // its coordinates are scaled already, so of its transform the translation alone
     object.world_from_shape[3] = Vec4(s * Vec3(object.world_from_shape[3]), 1.0);
+    object.pivot *= s;
   }
 }
 
