@@ -84,8 +84,10 @@ Color visible_part(const ReferenceScene& scene, const ShadingPoint& at, const Li
                    const Vec3& lift) {
   const Ray ray = scene.ray_from(at.hit, in.to_light, Coincident::before);
   const bool is_rounded = glm::length(lift) > kLeastLift * ray.noise;
-  if (is_rounded && glm::dot(at.geometric, in.to_light) < kLowSine) return light_over_curve(scene, at, light, lift);
+  const double sine = glm::dot(at.geometric, in.to_light);
+  if (is_rounded && sine < kLowSine) return light_over_curve(scene, at, light, lift);
   const Color passed = scene.transmittance(ray, in.distance);
+  if (sine <= 0.0) return scene.material(at.hit.body).transmission * passed;  // the facet itself is in between
   if (!is_rounded || passed == Color(1.0) || !is_hidden_by_facet(scene, at, ray)) return passed;
   return light_over_curve(scene, at, light, lift);
 }

@@ -3,7 +3,8 @@
 // Shading ends where the normals turn away from the light; the facets end it too early, and in steps. The rule here,
 // which README.md tells with its reasons and its limits: light comes straight to a facet, and whatever it meets casts a
 // shadow; only where facets of the same curve hide it that are lit from behind does it come over the curve (Hanika
-// 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4) and down to the facet. Pure; any thread.
+// 2021, Hacking the Shadow Terminator, Ray Tracing Gems II ch. 4) and down to the facet. What comes from behind a facet
+// that no curve lies above comes through it. Pure; any thread.
 #pragma once
 
 #include "renderer/compile/compiled_scene.h"

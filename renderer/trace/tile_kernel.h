@@ -334,10 +334,22 @@ class TileKernel {
   // What light gains and loses by coming over the curved surface that facets stand for; see terminator.h.
   void light_over_curves(const CompiledLight& light) {
     if (!is_built_in(Feature::smooth_normals) || spec_.terminator != Terminator::smooth) return;
+    cross_own_facets();
     pass_facets(light);
     follow_beam();
     go_down_to_facets();
     follow_beam();
+  }
+
+  // Light that comes straight from behind a facet has to come through it, and a ray that starts there does not meet it.
+  void cross_own_facets() {
+    for (size_t p = 0; p < pending_.size(); ++p) {
+      const uint32_t i = pending_[p].hit;
+      if (!surfaces_.is_rounded[i] || lit_.is_from_curve[i]) continue;
+      if (glm::dot(surfaces_.geometric_normal[i], lit_.to_light[i]) > 0.0) continue;
+      const CompiledMaterial& own = scene_.materials[scene_.bodies[hits_[i].body].material];
+      visible_[p] *= kCan.glass ? own.source.transmission : Color(0.0);
+    }
   }
 
   // Sends light over the curve that nothing but facets of the curve itself hides.

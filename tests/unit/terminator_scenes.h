@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "renderer/check/kit/pictures.h"
 #include "renderer/measure/reference.h"
@@ -77,6 +78,38 @@ inline MeshData ring(int around, int across, double thickness = 0.4) {
   const auto at = [&](int i, int k) { return static_cast<uint32_t>((i % around) * across + k % across); };
   for (int i = 0; i < around; ++i) {
     for (int k = 0; k < across; ++k) add_quad(mesh, at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
+  }
+  return mesh;
+}
+
+// Hills and hollows over a square of 3 by 3, smooth: open, or the top of a body with sides and a floor.
+inline MeshData hills(int cuts, bool is_closed) {
+  MeshData mesh;
+  for (int row = 0; row <= cuts; ++row) {
+    for (int column = 0; column <= cuts; ++column) {
+      const double x = 3.0 * column / cuts - 1.5, z = 3.0 * row / cuts - 1.5;
+      mesh.positions.emplace_back(x, 0.25 * std::sin(2.5 * x) * std::cos(2.5 * z), z);
+    }
+  }
+  const auto at = [&](int row, int column) { return static_cast<uint32_t>(row * (cuts + 1) + column); };
+  for (int row = 0; row < cuts; ++row) {
+    for (int column = 0; column < cuts; ++column)
+      add_quad(mesh, at(row, column + 1), at(row, column), at(row + 1, column), at(row + 1, column + 1));
+  }
+  mesh.crease_deg = 50.0;  // between any two facets of the hills, and any of them and a side
+  if (!is_closed) return mesh;
+  std::vector<uint32_t> rim;
+  for (int i = 0; i < cuts; ++i) rim.push_back(at(0, i));
+  for (int i = 0; i < cuts; ++i) rim.push_back(at(i, cuts));
+  for (int i = cuts; i > 0; --i) rim.push_back(at(cuts, i));
+  for (int i = cuts; i > 0; --i) rim.push_back(at(i, 0));
+  const auto count = static_cast<uint32_t>(rim.size()), foot = static_cast<uint32_t>(mesh.positions.size());
+  for (const uint32_t i : rim) mesh.positions.emplace_back(mesh.positions[i].x, -0.6, mesh.positions[i].z);
+  mesh.positions.emplace_back(0.0, -0.6, 0.0);
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t next = (i + 1) % count;
+    add_quad(mesh, rim[i], rim[next], foot + next, foot + i);
+    for (const uint32_t k : {foot + i, foot + next, foot + count}) mesh.indices.push_back(k);
   }
   return mesh;
 }

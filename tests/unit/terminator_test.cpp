@@ -287,6 +287,61 @@ TEST_F(Terminators, ShadeNoFacetThatTheCurveShows) {
   }
 }
 
+// Whether a picture is dark at a pixel and wherever else no more than `reach` pixels aside and up or down.
+bool is_dark_around(const Picture& picture, int x, int y, int reach) {
+  for (int v = std::max(0, y - reach); v <= std::min(picture.height - 1, y + reach); ++v) {
+    for (int u = std::max(0, x - reach); u <= std::min(picture.width - 1, x + reach); ++u)
+      if (picture.linear[3 * (static_cast<size_t>(v) * picture.width + u)] > 0.0f) return false;
+  }
+  return true;
+}
+
+constexpr std::array kLowLights = {Vec3(1, 0.08, -0.1), Vec3(1, 0.15, 0.3), Vec3(-0.3, 0.1, 1), Vec3(-1, 0.12, 0.5)};
+
+ParsedScene hills_in_light(int cuts, bool is_closed, const Vec3& light, double transmission = 0.0) {
+  Scene scene = matte_scene();
+  scene.materials[0].transmission = Color(transmission);
+  add(scene, hills(cuts, is_closed));
+  add_sun(scene, glm::normalize(light));
+  return view_of(scene, 192, Vec3(0.3, 1.0, 0.4));
+}
+
+TEST_F(Terminators, LieInTheShadowOfTheHillsOfTheirMeshOpenOrClosed) {
+  constexpr int kFacetPx = 9;  // a side of the coarser ones
+  for (const Vec3& light : kLowLights) {
+    for (const bool is_closed : {false, true}) {
+      const Picture truth = picture_by(hills_in_light(160, is_closed, light), Terminator::exact, true, pool_);
+      for (const int cuts : {20, 40}) {
+        const Picture seen = picture_by(hills_in_light(cuts, is_closed, light), Terminator::smooth, true, pool_);
+        int dark = 0, lit = 0;
+        for (int y = 0; y < seen.height; ++y) {
+          for (int x = 0; x < seen.width; ++x) {
+            const size_t i = static_cast<size_t>(y) * seen.width + x;
+            if (seen.ids[i] >> 32 != 0 || !is_dark_around(truth, x, y, kFacetPx)) continue;
+            ++dark, lit += seen.linear[3 * i] > 0.0f;
+          }
+        }
+        EXPECT_GT(dark, 500) << light.x << " " << cuts << is_closed;
+        EXPECT_EQ(lit, 0) << light.x << " " << cuts << is_closed;
+      }
+    }
+  }
+}
+
+TEST_F(Terminators, OfHillsAreThoseOfTheReference) {
+  for (const Vec3& light : kLowLights) {
+    for (const bool is_closed : {false, true}) {
+      for (const double transmission : {0.0, 0.6}) {
+        ParsedScene view = hills_in_light(20, is_closed, light, transmission);
+        view.view.render.max_depth = 0;
+        const ImageDifference d = judge_view(view.scene, view.view, pool_).difference;
+        EXPECT_LE(d.id_mismatches, 4);
+        EXPECT_LE(d.q8_differing, 8) << light.x << " " << is_closed << " " << transmission;
+      }
+    }
+  }
+}
+
 double rms_apart(const Picture& a, const Picture& b) {
   double sum = 0.0;
   for (size_t i = 0; i < a.linear.size(); ++i) sum += std::pow(double{a.linear[i]} - double{b.linear[i]}, 2);
