@@ -103,11 +103,11 @@ class BodyMaker {
     Body& body = add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part);
     body.half = 0.5 * (box.max - box.min);
     body.rounding = rounding_of(box, object().world_from_shape, body.world_from_local);
-    body.is_solid = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
+    body.has_inside = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
   }
 
   void place(const PlaneShape& plane) {
-    add(BodyKind::plane, frame_of_plane(plane), object().material).is_solid = false;
+    add(BodyKind::plane, frame_of_plane(plane), object().material).has_inside = false;
   }
 
   void place(const MeshShape& shape) {
@@ -118,11 +118,11 @@ class BodyMaker {
 
   void set_mesh(Body& body, const std::shared_ptr<const TriMesh>& mesh) {
     body.mesh = mesh;
-    body.is_solid = mesh->closed;
+    body.has_inside = mesh->closed;
     if (!mesh->closed || scene_.materials[body.material].transmission == Color(0.0)) return;
     const GlassMesh& glass = glass_mesh(mesh);
     body.mesh = glass.mesh;
-    body.is_solid = glass.has_volume;
+    body.has_inside = glass.has_volume;
     body.is_turned = glass.mesh != mesh;
     body.may_touch_itself = glass.may_touch_itself;
   }

@@ -39,7 +39,7 @@ struct Body {
   MaterialId material = 0;
   uint32_t object = 0;                  // index into Scene::objects
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
-  bool is_solid = true;                 // it has an inside
+  bool has_inside = true;
   bool is_turned = false;         // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
   bool may_touch_itself = false;  // a transparent mesh of several shells, or of some that share edges
   Layer layer = Layer::opaque;

@@ -57,7 +57,7 @@ void set_ranks(const Scene& scene, std::vector<Body>& bodies) {
   for (const Material& m : scene.materials) keys.push_back(key_of(m));
   for (Body& body : bodies) {
     const bool is_transparent = scene.materials[body.material].transmission != Color(0.0);
-    body.layer = !is_transparent ? Layer::opaque : body.is_solid ? Layer::medium : Layer::film;
+    body.layer = !is_transparent ? Layer::opaque : body.has_inside ? Layer::medium : Layer::film;
   }
   std::vector<uint32_t> order(bodies.size());
   std::iota(order.begin(), order.end(), 0u);

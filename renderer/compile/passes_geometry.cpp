@@ -173,7 +173,7 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
       CompiledBody c;
       c.kind = body.kind;
       c.has_solid_pattern = body.kind == BodyKind::sphere;
-      c.closed = body.is_solid;
+      c.has_inside = body.has_inside;
       c.may_touch_itself = body.may_touch_itself;
       c.layer = body.layer;
       c.rank = body.rank;

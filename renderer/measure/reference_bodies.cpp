@@ -162,7 +162,7 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       pattern_normal_from_local(glm::transpose(glm::inverse(Mat3(body.pattern_from_local)))),
       material(body.material),
       mesh(std::move(mesh_tree)),
-      is_solid(body.is_solid),
+      has_inside(body.has_inside),
       may_touch_itself(body.may_touch_itself),
       layer(body.layer),
       rank(body.rank),

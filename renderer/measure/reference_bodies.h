@@ -59,7 +59,7 @@ struct ReferenceBody {
   Mat3 pattern_normal_from_local;
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
-  bool is_solid;  // has an inside: light can be bent on its way in and out
+  bool has_inside;  // light can be bent on its way in and out
   bool may_touch_itself;
   Layer layer;
   uint32_t rank;

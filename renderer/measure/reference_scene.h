@@ -23,7 +23,7 @@ class ReferenceScene {
   const Attenuation& attenuation() const { return attenuation_; }
 
   // A medium: a solid whose material lets light through. Thin bodies (planes, open meshes, flat boxes) are none.
-  bool is_medium(uint32_t body_id) const { return bodies_[body_id].is_solid && is_transmissive_[body_id]; }
+  bool is_medium(uint32_t body_id) const { return bodies_[body_id].has_inside && is_transmissive_[body_id]; }
 
   // A ray that starts on the surface `left`.
   reference::Ray ray_from(const reference::Hit& left, const Vec3& direction, reference::Coincident coincident) const;
