@@ -9,6 +9,7 @@
 #include "renderer/base/double_double.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/geometry/chess_set.h"
+#include "renderer/geometry/self_touch.h"
 #include "renderer/geometry/shells.h"
 
 namespace tilelight {
@@ -133,7 +134,8 @@ class BodyMaker {
     if (glass.mesh) return glass;
     const Shells shells = find_shells(*mesh);
     glass.has_volume = holds_volume(shells);
-    glass.may_touch_itself = !mesh->is_manifold || shells.volume.size() > 1;
+    glass.may_touch_itself =
+        !mesh->is_manifold || shells.volume.size() > 1 || (!mesh->is_known_outward && touches_itself(*mesh));
     const std::vector<bool> is_turned = find_inside_out(*mesh, shells);
     glass.mesh = is_turned.empty() ? mesh : std::make_shared<const TriMesh>(with_turned(*mesh, is_turned));
     return glass;

@@ -163,7 +163,7 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       material(body.material),
       mesh(std::move(mesh_tree)),
       has_inside(body.has_inside),
-      may_touch_itself(body.may_touch_itself),
+      may_touch_itself(body.kind == BodyKind::mesh && body.layer == Layer::medium),
       layer(body.layer),
       rank(body.rank),
       bounds(world_bounds(*this)),
