@@ -42,7 +42,7 @@ struct CompiledBody {
   const TriangleTree* tree = nullptr;  // of the mesh, in local space; null: its triangles are in the scene's tree
   Vec3 half{1.0};
   Vec3 rounding{0.0};          // of a box's faces, see Body; local units
-  double face_rounding = 0.0;  // the same across any of them, normalised units
+  double face_rounding = 0.0;  // how far a surface may lie from where the document puts it, normalised units
   Mat4 local_from_world{1.0};
   Mat4 world_from_local{1.0};
   Mat3 world_from_normal{1.0};  // cofactor matrix, sign by determinant: takes outward to outward
