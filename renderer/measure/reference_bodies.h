@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "renderer/compile/bodies.h"
 #include "renderer/measure/box_tree.h"
@@ -124,7 +125,8 @@ std::optional<Hit> triangle_hit(const TriMesh& mesh, uint32_t body, uint32_t tri
 std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, const Vec3& origin,
                                     const Vec3& direction);
 
-// Whether a point is inside the solid, and how far from its surface along `direction`; none if outside.
-std::optional<double> exit_distance(const ReferenceBody& body, const Vec3& point, const Vec3& direction);
+// Of a solid around a point: how far it is along `direction` to where the solid ends. A mesh whose shells overlap may
+// be around it several times, and ends as often; none: the point is outside.
+std::vector<double> exit_distances(const ReferenceBody& body, const Vec3& point, const Vec3& direction);
 
 }  // namespace tilelight::reference

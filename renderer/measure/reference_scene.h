@@ -46,7 +46,8 @@ class ReferenceScene {
   // product of kt over the surfaces crossed, unrefracted.
   Color transmittance(const reference::Ray& ray, double distance) const;
 
-  // The media in which a point lies, outermost first (by where a ray of fixed direction leaves them).
+  // The media in which a point lies, outermost first (by where a ray of fixed direction leaves them); as often as they
+  // are around it.
   std::vector<uint32_t> media_around(const Vec3& point) const;
 
  private:
