@@ -9,6 +9,7 @@
 #include "renderer/base/double_double.h"
 #include "renderer/base/safe_length.h"
 #include "renderer/geometry/chess_set.h"
+#include "renderer/geometry/self_touch.h"
 #include "renderer/geometry/shells.h"
 
 namespace tilelight {
@@ -106,11 +107,11 @@ class BodyMaker {
     Body& body = add(BodyKind::box, translation(0.5 * (box.min + box.max)), material, part);
     body.half = 0.5 * (box.max - box.min);
     body.rounding = rounding_of(box, object(), body.world_from_local);
-    body.is_solid = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
+    body.has_inside = std::min({body.half.x, body.half.y, body.half.z}) > 0.0;
   }
 
   void place(const PlaneShape& plane) {
-    add(BodyKind::plane, frame_of_plane(plane), object().material).is_solid = false;
+    add(BodyKind::plane, frame_of_plane(plane), object().material).has_inside = false;
   }
 
   void place(const MeshShape& shape) {
@@ -121,11 +122,11 @@ class BodyMaker {
 
   void set_mesh(Body& body, const std::shared_ptr<const TriMesh>& mesh) {
     body.mesh = mesh;
-    body.is_solid = mesh->closed;
+    body.has_inside = mesh->closed;
     if (!mesh->closed || scene_.materials[body.material].transmission == Color(0.0)) return;
     const GlassMesh& glass = glass_mesh(mesh);
     body.mesh = glass.mesh;
-    body.is_solid = glass.has_volume;
+    body.has_inside = glass.has_volume;
     body.is_turned = glass.mesh != mesh;
     body.may_touch_itself = glass.may_touch_itself;
   }
@@ -136,7 +137,8 @@ class BodyMaker {
     if (glass.mesh) return glass;
     const Shells shells = find_shells(*mesh);
     glass.has_volume = holds_volume(shells);
-    glass.may_touch_itself = !mesh->is_manifold || shells.volume.size() > 1;
+    glass.may_touch_itself =
+        !mesh->is_manifold || shells.volume.size() > 1 || (!mesh->is_known_outward && touches_itself(*mesh));
     const std::vector<bool> is_turned = find_inside_out(*mesh, shells);
     glass.mesh = is_turned.empty() ? mesh : std::make_shared<const TriMesh>(with_turned(*mesh, is_turned));
     return glass;

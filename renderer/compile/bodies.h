@@ -30,8 +30,8 @@ struct Body {
   BodyKind kind = BodyKind::sphere;
   Mat4 world_from_local{1.0};  // never singular
   Vec3 half{1.0};              // kind box only
-  // Kind box only: how far its faces lie from where the document puts them, by the rounding of its middle, its half
-  // sides and its place; scene units, by axis of the world.
+  // Kind box only: how far its faces lie from where the numbers of the scene put them, by the rounding of its middle,
+  // its half sides and its place; scene units, by axis of the world.
   Vec3 rounding{0.0};
   // The frame in which a checker counts its cells: unit lengths are scene units, before the user's transform.
   // pattern = pattern_from_local * local point.
@@ -39,9 +39,10 @@ struct Body {
   MaterialId material = 0;
   uint32_t object = 0;                  // index into Scene::objects
   std::shared_ptr<const TriMesh> mesh;  // kind mesh only; shared by all instances
-  bool is_solid = true;                 // it has an inside
-  bool is_turned = false;         // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
-  bool may_touch_itself = false;  // a transparent mesh of several shells, or of some that share edges
+  bool has_inside = true;
+  bool is_turned = false;  // a transparent mesh that was wound inside out, as a whole or in part; `mesh` is not
+  // A transparent mesh of several shells, of some that share edges, or of one whose facets lie on each other.
+  bool may_touch_itself = false;
   Layer layer = Layer::opaque;
   // Of surfaces in one place the one of the lowest rank is met first. Films come first, then what is opaque, by id,
   // then media: the higher priority first, then the higher ior; then what else tells materials, shapes and placements

@@ -33,19 +33,32 @@ int compare(const Vec3& a, const Vec3& b) {
   }
   return 0;
 }
+int compare_normals(const TriMesh& a, const TriMesh& b) {
+  if (a.corner_normals.size() != b.corner_normals.size())
+    return a.corner_normals.size() < b.corner_normals.size() ? -1 : 1;
+  for (size_t i = 0; i < a.corner_normals.size(); ++i) {
+    for (size_t corner = 0; corner < 3; ++corner) {
+      if (const int order = compare(a.corner_normals[i][corner], b.corner_normals[i][corner])) return order;
+    }
+  }
+  return 0;
+}
 int compare(const TriMesh* a, const TriMesh* b) {
   if (a == b) return 0;
   if (a->positions.size() != b->positions.size()) return a->positions.size() < b->positions.size() ? -1 : 1;
   for (size_t i = 0; i < a->positions.size(); ++i) {
     if (const int order = compare(a->positions[i], b->positions[i])) return order;
   }
-  return a->triangles < b->triangles ? -1 : a->triangles > b->triangles ? 1 : 0;
+  if (a->triangles != b->triangles) return a->triangles < b->triangles ? -1 : 1;
+  return compare_normals(*a, *b);
 }
 int compare_places(const Body& a, const Body& b) {
   if (a.kind != b.kind) return a.kind < b.kind ? -1 : 1;
   if (const int order = compare(a.half, b.half)) return order;
-  for (int column = 0; column < 4; ++column) {
-    if (const int order = compare(Vec3(a.world_from_local[column]), Vec3(b.world_from_local[column]))) return order;
+  for (const auto member : {&Body::world_from_local, &Body::pattern_from_local}) {
+    for (int column = 0; column < 4; ++column) {
+      if (const int order = compare(Vec3((a.*member)[column]), Vec3((b.*member)[column]))) return order;
+    }
   }
   return compare(a.mesh.get(), b.mesh.get());
 }
@@ -57,7 +70,7 @@ void set_ranks(const Scene& scene, std::vector<Body>& bodies) {
   for (const Material& m : scene.materials) keys.push_back(key_of(m));
   for (Body& body : bodies) {
     const bool is_transparent = scene.materials[body.material].transmission != Color(0.0);
-    body.layer = !is_transparent ? Layer::opaque : body.is_solid ? Layer::medium : Layer::film;
+    body.layer = !is_transparent ? Layer::opaque : body.has_inside ? Layer::medium : Layer::film;
   }
   std::vector<uint32_t> order(bodies.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -39,7 +39,7 @@ std::shared_ptr<const CompiledMesh> compile_mesh(const TriMesh& mesh) {
   for (const Vec3& p : mesh.positions) bounds.grow(p);
   const Normalisation n = normalise(bounds);
   out->is_manifold = mesh.is_manifold;
-  out->is_solid = mesh.is_solid;
+  out->is_known_outward = mesh.is_known_outward;
   out->mesh_from_local = n.user_from_normalised();
   out->triangles = mesh.triangles;
   out->positions.reserve(mesh.positions.size());

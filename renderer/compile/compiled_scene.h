@@ -21,7 +21,7 @@ struct CompiledMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<Vec3> normals;                            // shared corner normals, unit
   std::vector<std::array<uint32_t, 3>> corner_normals;  // into `normals`; empty = flat
-  bool is_manifold = false, is_solid = false;           // see TriMesh
+  bool is_manifold = false, is_known_outward = false;   // see TriMesh
   Mat4 mesh_from_local{1.0};                            // undoes the normalisation
   std::array<Box, 8> octants{};  // around the positions in each octant; together they fit closely
 
@@ -31,7 +31,7 @@ struct CompiledMesh {
 struct CompiledBody {
   BodyKind kind = BodyKind::sphere;
   bool has_solid_pattern = false;  // a checker counts its cells in three dimensions: spheres, also tessellated
-  bool closed = true;              // it has an inside (sphere, box of some thickness, closed mesh)
+  bool has_inside = true;          // it has one (sphere, box of some thickness, closed mesh)
   bool may_touch_itself = false;   // see Body
   bool may_touch_media = false;    // a medium whose surface may lie in one place with one of its own or another's
   Layer layer = Layer::opaque;     // see Body
@@ -42,7 +42,7 @@ struct CompiledBody {
   const TriangleTree* tree = nullptr;  // of the mesh, in local space; null: its triangles are in the scene's tree
   Vec3 half{1.0};
   Vec3 rounding{0.0};          // of a box's faces, see Body; local units
-  double face_rounding = 0.0;  // the same across any of them, normalised units
+  double face_rounding = 0.0;  // how far a surface may lie from where the document puts it, normalised units
   Mat4 local_from_world{1.0};
   Mat4 world_from_local{1.0};
   Mat3 world_from_normal{1.0};  // cofactor matrix, sign by determinant: takes outward to outward
@@ -89,7 +89,7 @@ struct CompiledScene {
 
 // A solid that lets light through; rays remember which of them they are in.
 inline bool is_medium(const CompiledScene& scene, uint32_t body) {
-  return scene.bodies[body].closed && scene.materials[scene.bodies[body].material].is_transmissive;
+  return scene.bodies[body].has_inside && scene.materials[scene.bodies[body].material].is_transmissive;
 }
 
 }  // namespace tilelight

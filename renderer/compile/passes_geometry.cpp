@@ -119,6 +119,72 @@ void set_world(CompiledBody& body, const Mat4& world_from_local) {
   body.world_from_normal = glm::determinant(unit) < 0.0 ? -cofactor(unit) : cofactor(unit);
 }
 
+using MeshMap = std::map<const TriMesh*, std::shared_ptr<const CompiledMesh>>;
+
+MeshMap compile_meshes(const std::vector<Body>& bodies, CompiledScene& out) {
+  MeshMap compiled;
+  for (const Body& body : bodies) {
+    if (!body.mesh || compiled.contains(body.mesh.get())) continue;
+    const auto& mesh = compiled[body.mesh.get()] = compile_mesh(*body.mesh);
+    out.meshes.push_back(mesh);
+    out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
+    out.plan.memory_bytes += mesh->memory_bytes();
+    if (body.mesh->degenerate_dropped == 0) continue;
+    out.plan.left_out.push_back(
+        {std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name, "they have no area",
+         bytes_text(bytes_of_triangles(*mesh, static_cast<int64_t>(body.mesh->degenerate_dropped)))});
+  }
+  return compiled;
+}
+
+// What does not depend on where the others are.
+CompiledBody as_listed(const Body& body, uint32_t id, const MeshMap& meshes) {
+  CompiledBody c;
+  c.kind = body.kind;
+  c.has_solid_pattern = body.kind == BodyKind::sphere;
+  c.has_inside = body.has_inside;
+  c.may_touch_itself = body.may_touch_itself;
+  c.layer = body.layer;
+  c.rank = body.rank;
+  c.material = body.material;
+  c.body = id;
+  c.half = body.half;
+  c.name = body.name;
+  c.pattern_from_local = body.pattern_from_local;
+  if (!body.mesh) return c;
+  c.mesh = meshes.at(body.mesh.get()).get();
+  c.pattern_from_local = c.pattern_from_local * c.mesh->mesh_from_local;
+  return c;
+}
+
+// The numbers of a document are rounded to doubles: the face of a box by half of this times its size, and what is added
+// up of several (a position and where it is moved to) as often as it is added to.
+constexpr double kPlaceRounding = 0x1p-52;
+
+double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// Chooses centre and units, and sets all bodies in place.
+void set_in_place(const std::vector<Body>& bodies, const std::vector<Mat4>& user_from_local, const Box& bounds,
+                  CompiledScene& out) {
+  const Normalisation n = normalise(bounds);
+  out.center = n.center;
+  out.units = n.units;
+  for (const double least = least_units(out.lights, n.center); out.units < least;) out.units *= 2.0;
+  out.bounding_center = 0.5 * bounds.lo + 0.5 * bounds.hi;
+  out.bounding_radius = out.finite_bodies == 0 ? 1.0 : 0.0;
+  for (size_t i = 0; i < out.bodies.size(); ++i) {
+    CompiledBody& body = out.bodies[i];
+    if (i < out.finite_bodies) {
+      out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], out.bounding_center));
+    }
+    const Body& source = bodies[body.body];
+    set_world(body, normalised(source, body.mesh, out.center, out.units));
+    for (int column = 0; column < 3; ++column)
+      body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (source.rounding[column] / out.units);
+    body.face_rounding /= out.units;
+  }
+}
+
 }  // namespace
 
 Box body_bounds(const CompiledBody& body) { return bounds_in(body, body.world_from_local); }
@@ -148,48 +214,26 @@ Stiffness find_stiffness(const CompiledScene& scene) {
 }
 
 void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
-  std::map<const TriMesh*, std::shared_ptr<const CompiledMesh>> compiled;
-  for (const Body& body : bodies) {
-    if (body.mesh && !compiled.contains(body.mesh.get())) {
-      const auto& mesh = compiled[body.mesh.get()] = compile_mesh(*body.mesh);
-      out.meshes.push_back(mesh);
-      out.plan.triangles_stored += static_cast<int64_t>(mesh->triangles.size());
-      out.plan.memory_bytes += mesh->memory_bytes();
-      if (body.mesh->degenerate_dropped > 0) {
-        out.plan.left_out.push_back(
-            {std::to_string(body.mesh->degenerate_dropped) + " triangles of " + body.name, "they have no area",
-             bytes_text(bytes_of_triangles(*mesh, static_cast<int64_t>(body.mesh->degenerate_dropped)))});
-      }
-    }
-  }
-
+  const MeshMap meshes = compile_meshes(bodies, out);
   // User's space first: the bounds say where the centre is and how large a unit is.
   std::vector<Mat4> user_from_local;
   Box bounds;
   for (const bool finite : {true, false}) {
     for (size_t i = 0; i < bodies.size(); ++i) {
-      const Body& body = bodies[i];
-      if ((body.kind != BodyKind::plane) != finite) continue;
-      CompiledBody c;
-      c.kind = body.kind;
-      c.has_solid_pattern = body.kind == BodyKind::sphere;
-      c.closed = body.is_solid;
-      c.may_touch_itself = body.may_touch_itself;
-      c.layer = body.layer;
-      c.rank = body.rank;
-      c.material = body.material;
-      c.body = static_cast<uint32_t>(i);
-      c.half = body.half;
-      c.name = body.name;
-      c.pattern_from_local = body.pattern_from_local;
-      Mat4 to = body.world_from_local;
-      if (body.mesh) {
-        c.mesh = compiled[body.mesh.get()].get();
+      if ((bodies[i].kind != BodyKind::plane) != finite) continue;
+      CompiledBody c = as_listed(bodies[i], static_cast<uint32_t>(i), meshes);
+      Mat4 to = bodies[i].world_from_local;
+      if (c.mesh) {
         to = to * c.mesh->mesh_from_local;
-        c.pattern_from_local = c.pattern_from_local * c.mesh->mesh_from_local;
         out.plan.triangles_instanced += static_cast<int64_t>(c.mesh->triangles.size());
       }
-      if (finite) bounds.grow(bounds_in(c, to));
+      if (finite) {
+        const Box box = bounds_in(c, to);
+        c.face_rounding = largest(bodies[i].rounding) + kPlaceRounding * std::max(largest(box.lo), largest(box.hi));
+        bounds.grow(box);
+      } else {
+        c.face_rounding = kPlaceRounding * glm::dot(glm::abs(unit_or_zero(Vec3(to[1]))), glm::abs(Vec3(to[3])));
+      }
       user_from_local.push_back(to);
       out.bodies.push_back(std::move(c));
     }
@@ -199,24 +243,7 @@ void rebase_and_normalise(const std::vector<Body>& bodies, CompiledScene& out) {
     bounds.grow(Vec3(user_from_local[0][3]) - Vec3(1.0));
     bounds.grow(Vec3(user_from_local[0][3]) + Vec3(1.0));
   }
-
-  const Normalisation n = normalise(bounds);
-  out.center = n.center;
-  out.units = n.units;
-  for (const double least = least_units(out.lights, n.center); out.units < least;) out.units *= 2.0;
-  out.bounding_center = 0.5 * bounds.lo + 0.5 * bounds.hi;
-  out.bounding_radius = out.finite_bodies == 0 ? 1.0 : 0.0;
-  for (size_t i = 0; i < out.bodies.size(); ++i) {
-    CompiledBody& body = out.bodies[i];
-    if (i < out.finite_bodies) {
-      out.bounding_radius = std::max(out.bounding_radius, radius_about(body, user_from_local[i], out.bounding_center));
-    }
-    const Body& source = bodies[body.body];
-    set_world(body, normalised(source, body.mesh, out.center, out.units));
-    for (int column = 0; column < 3; ++column)
-      body.rounding += glm::abs(Vec3(body.local_from_world[column])) * (source.rounding[column] / out.units);
-    body.face_rounding = std::max({source.rounding.x, source.rounding.y, source.rounding.z}) / out.units;
-  }
+  set_in_place(bodies, user_from_local, bounds, out);
   out.plan.bodies = static_cast<int64_t>(out.bodies.size());
   out.plan.bounds_min = bounds.lo;
   out.plan.bounds_max = bounds.hi;

@@ -121,7 +121,7 @@ std::vector<SceneWarning> find_odd_glass(const std::vector<Body>& bodies) {
   for (const Body& body : bodies) {
     if (body.kind != BodyKind::mesh || body.layer == Layer::opaque) continue;
     const std::string pointer = "/objects/" + std::to_string(body.object);
-    if (!body.is_solid) {
+    if (!body.has_inside) {
       warnings.push_back(
           {pointer, "open_glass",
            std::string(body.mesh->closed ? "the mesh encloses no volume" : "the mesh is open") +
@@ -143,7 +143,7 @@ double find_passed_on(const CompiledScene& scene) {
     const Color &kr = m.source.reflection, &kt = m.source.transmission;
     // kr F + kt (1 - F) where the body is a medium; a thin one has no F.
     const auto is_thin = [&](const CompiledBody& body) {
-      return &scene.materials[body.material] == &m && !body.closed;
+      return &scene.materials[body.material] == &m && !body.has_inside;
     };
     const bool is_shared =
         m.source.fresnel && m.is_transmissive && std::none_of(scene.bodies.begin(), scene.bodies.end(), is_thin);

@@ -128,8 +128,10 @@ class ViewPlanner {
                                 ? "max_depth is 0: local light only"
                                 : std::string(get_word(kAlgorithms, spec().algorithm)) + " knows local light only";
     leave_out(Feature::reflection, why, first_hits_text(out_.view, 1, "reflected rays"));
-    // Of two media that overlap, one hides surfaces of the other, at any depth.
-    if (scene_.media <= 1) leave_out(Feature::transmission, why, first_hits_text(out_.view, 1, "refracted rays"));
+    // Of two media that overlap, or two shells of one, one hides surfaces of the other, at any depth.
+    const auto hides_own = [](const CompiledBody& body) { return body.may_touch_itself; };
+    if (scene_.media <= 1 && std::none_of(scene_.bodies.begin(), scene_.bodies.end(), hides_own))
+      leave_out(Feature::transmission, why, first_hits_text(out_.view, 1, "refracted rays"));
     leave_out(Feature::nested_media, why);
     leave_out(Feature::fresnel, why);
   }

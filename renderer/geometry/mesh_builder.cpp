@@ -68,7 +68,7 @@ TriMesh MeshBuilder::finish() const {
                                    facing(corners_[i + 2].normal, facet)});
   }
   find_closure(mesh);
-  mesh.is_solid = mesh.is_manifold;
+  mesh.is_known_outward = mesh.is_manifold;
   return mesh;
 }
 

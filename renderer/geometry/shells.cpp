@@ -2,11 +2,15 @@
 #include "renderer/geometry/shells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "renderer/base/elementary.h"
+#include "renderer/geometry/edge_pairs.h"
+#include "renderer/geometry/extent.h"
 
 namespace tilelight {
 namespace {
@@ -57,9 +61,8 @@ void for_each_edge(const std::vector<UsedEdge>& edges, const Visit& visit) {
   }
 }
 
-// Joins the groups whose edges do not come out even: none of them is closed by itself.
-void join_open(const std::vector<UsedEdge>& edges, Groups& groups, size_t triangles) {
-  constexpr uint32_t kNobody = std::numeric_limits<uint32_t>::max();
+// The groups whose edges do not come out even: none of them is closed by itself.
+std::vector<bool> find_open(const std::vector<UsedEdge>& edges, Groups& groups, size_t triangles) {
   std::vector<bool> is_open(triangles, false);
   std::vector<std::pair<uint32_t, int>> sums;  // by group, of one edge
   for_each_edge(edges, [&](size_t first, size_t last) {
@@ -75,21 +78,49 @@ void join_open(const std::vector<UsedEdge>& edges, Groups& groups, size_t triang
       if (sum != 0) is_open[group] = true;
     }
   });
-  uint32_t joined = kNobody;
-  for (uint32_t group = 0; group < triangles; ++group) {
-    if (!is_open[group]) continue;
-    if (joined != kNobody) groups.join(group, joined);
-    joined = groups.of(group);
-  }
+  return is_open;
 }
 
-struct Extent {
-  Vec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
-  void grow(const Vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  bool holds(const Extent& other) const {
-    return glm::all(glm::lessThanEqual(lo, other.lo)) && glm::all(glm::greaterThanEqual(hi, other.hi));
+// Of triangles with the same corners that are wound the same way: a number for each, from 0 on.
+std::vector<uint32_t> number_copies(const TriMesh& mesh) {
+  const auto rotated = [&](uint32_t t) {
+    std::array<uint32_t, 3> facet = mesh.triangles[t];
+    std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+    return facet;
+  };
+  std::vector<uint32_t> order(mesh.triangles.size()), copies(mesh.triangles.size(), 0);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return std::pair(rotated(a), a) < std::pair(rotated(b), b); });
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (rotated(order[i]) == rotated(order[i - 1])) copies[order[i]] = copies[order[i - 1]] + 1;
   }
-};
+  return copies;
+}
+
+// Joins the groups that are not closed by themselves, edge by edge with those that close them.
+void join_open(const TriMesh& mesh, const std::vector<UsedEdge>& edges, Groups& groups) {
+  const std::vector<bool> is_open = find_open(edges, groups, mesh.triangles.size());
+  if (std::find(is_open.begin(), is_open.end(), true) == is_open.end()) return;
+  std::vector<uint32_t> group_of(mesh.triangles.size());
+  for (uint32_t t = 0; t < group_of.size(); ++t) group_of[t] = groups.of(t);
+  const std::vector<uint32_t> copies = number_copies(mesh);
+  std::vector<EdgeUse> uses;
+  for_each_edge(edges, [&](size_t first, size_t last) {
+    if (last - first == 2) return;
+    uses.clear();
+    const Vec3 &low = mesh.positions[edges[first].low], &high = mesh.positions[edges[first].high];
+    for (size_t i = first; i < last; ++i) {
+      const uint32_t t = edges[i].triangle;
+      if (!is_open[group_of[t]]) continue;
+      const auto& [a, b, c] = mesh.triangles[t];
+      const uint32_t third = a ^ b ^ c ^ edges[i].low ^ edges[i].high;
+      uses.push_back({mesh.positions[third] - low, t, edges[i].is_upward, copies[t]});
+    }
+    if (uses.empty()) return;
+    for (const auto& [a, b] : pair_uses(high - low, uses)) groups.join(a, b);
+  });
+}
 
 // Its part of all directions that a triangle takes as seen from a point, in full turns about it; positive from the
 // inner side (van Oosterom and Strackee 1983). Summed over a closed surface: its winding number.
@@ -166,7 +197,7 @@ Shells find_shells(const TriMesh& mesh) {
   for_each_edge(edges, [&](size_t first, size_t last) {
     if (last - first == 2) groups.join(edges[first].triangle, edges[first + 1].triangle);
   });
-  join_open(edges, groups, mesh.triangles.size());
+  join_open(mesh, edges, groups);
 
   Shells out;
   constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();

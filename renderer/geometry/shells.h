@@ -12,8 +12,8 @@ struct Shells {
   std::vector<uint32_t> of_triangle;  // a number from 0 on
   std::vector<double> volume;         // by shell; signed, positive where it is wound outwards; of no particular unit
 };
-// Facets that meet in an edge of two are of one shell; facets that are part of no closed surface by themselves (those
-// of a face that two bodies share) are one shell together. REQUIRES: a closed mesh.
+// Facets that meet in an edge of two are of one shell. What is no closed surface by itself (a face that two bodies
+// share, a facet that is there twice) goes with what bounds the same material at its edges. REQUIRES: a closed mesh.
 Shells find_shells(const TriMesh& mesh);
 
 // Whether it holds any volume at all: a sheet with a back holds none.

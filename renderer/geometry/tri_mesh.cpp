@@ -23,14 +23,6 @@ void set_given_normals(TriMesh& mesh, const MeshData& data, const std::vector<ui
   }
 }
 
-// Wound the same way both times.
-bool has_facet_twice(const TriMesh& mesh) {
-  std::vector<std::array<uint32_t, 3>> facets = mesh.triangles;
-  for (auto& facet : facets) std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
-  std::sort(facets.begin(), facets.end());
-  return std::adjacent_find(facets.begin(), facets.end()) != facets.end();
-}
-
 }  // namespace
 
 TriMesh make_tri_mesh(const MeshData& data) {
@@ -76,9 +68,8 @@ void find_closure(TriMesh& mesh) {
   }
   std::sort(edges.begin(), edges.end());
   std::sort(opposites.begin(), opposites.end());
-  if (edges.empty() || edges != opposites) return;
-  mesh.is_manifold = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-  mesh.closed = mesh.is_manifold || !has_facet_twice(mesh);
+  mesh.closed = !edges.empty() && edges == opposites;
+  mesh.is_manifold = mesh.closed && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
 }  // namespace tilelight

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <utility>
 
 #include "renderer/base/elementary.h"
@@ -162,8 +164,8 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       pattern_normal_from_local(glm::transpose(glm::inverse(Mat3(body.pattern_from_local)))),
       material(body.material),
       mesh(std::move(mesh_tree)),
-      is_solid(body.is_solid),
-      may_touch_itself(body.may_touch_itself),
+      has_inside(body.has_inside),
+      may_touch_itself(body.kind == BodyKind::mesh && body.layer == Layer::medium),
       layer(body.layer),
       rank(body.rank),
       bounds(world_bounds(*this)),
@@ -318,27 +320,34 @@ std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, c
   return moved;
 }
 
-std::optional<double> exit_distance(const ReferenceBody& body, const Vec3& point, const Vec3& direction) {
+std::vector<double> exit_distances(const ReferenceBody& body, const Vec3& point, const Vec3& direction) {
   const Vec3 o = body.local_point(point), d = body.local_from_world * direction;
   if (body.kind != BodyKind::mesh) {
     const AnalyticHits found = analytic_hits(body, 0, Ray{.origin = point, .direction = direction});
     const bool is_inside = found.count == 2 && found.hits[0].t < 0.0 && found.hits[1].t > 0.0;
-    return is_inside ? std::optional(found.hits[1].t) : std::nullopt;
+    return is_inside ? std::vector{found.hits[1].t} : std::vector<double>{};
   }
   // The winding number: ways out less ways in along the ray (never parity, which one flipped face would break).
   const ShearedRay ray(o, d);
   const double everywhere = kInfinity;
-  int exits = 0;
-  double nearest = kInfinity;
+  std::map<double, int, std::greater<>> exits;  // by distance, the farthest first; less the entries
   body.mesh->tree.visit(o, d, 0.0, everywhere, [&](uint32_t triangle) {
     const auto hit = triangle_hit(*body.mesh->mesh, 0, triangle, ray);
-    if (!hit || hit->t <= 0.0) return false;
-    const bool goes_out = glm::dot(local_normal(body, *hit), d) > 0.0;
-    exits += goes_out ? 1 : -1;
-    if (goes_out) nearest = std::min(nearest, hit->t);
+    if (hit && hit->t > 0.0) exits[hit->t] += glm::dot(local_normal(body, *hit), d) > 0.0 ? 1 : -1;
     return false;
   });
-  return exits > 0 ? std::optional(nearest) : std::nullopt;
+  // Back from beyond everything, where the number is 0: the solid ends for the n-th time where the number has come to n
+  // for good. Places closer together than rounding are one.
+  std::vector<double> ends;
+  int around = 0;
+  for (auto at = exits.begin(); at != exits.end();) {
+    const double place = at->first;
+    for (; at != exits.end() && at->first >= place * (1.0 - kRounding); ++at) around += at->second;
+    const auto count = static_cast<size_t>(std::max(around, 0));
+    ends.resize(std::min(ends.size(), count));
+    ends.resize(count, place);
+  }
+  return ends;
 }
 
 }  // namespace tilelight::reference

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "renderer/compile/bodies.h"
 #include "renderer/measure/box_tree.h"
@@ -59,8 +60,8 @@ struct ReferenceBody {
   Mat3 pattern_normal_from_local;
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
-  bool is_solid;  // has an inside: light can be bent on its way in and out
-  bool may_touch_itself;
+  bool has_inside;        // light can be bent on its way in and out
+  bool may_touch_itself;  // asked of every mesh that light goes through, so that no search for such places is trusted
   Layer layer;
   uint32_t rank;
   Box bounds;            // world space; infinite for planes
@@ -124,7 +125,8 @@ std::optional<Hit> triangle_hit(const TriMesh& mesh, uint32_t body, uint32_t tri
 std::optional<Hit> hit_same_surface(const ReferenceBody& body, const Hit& hit, const Vec3& origin,
                                     const Vec3& direction);
 
-// Whether a point is inside the solid, and how far from its surface along `direction`; none if outside.
-std::optional<double> exit_distance(const ReferenceBody& body, const Vec3& point, const Vec3& direction);
+// Of a solid around a point: how far it is along `direction` to where the solid ends. A mesh whose shells overlap may
+// be around it several times, and ends as often; none: the point is outside.
+std::vector<double> exit_distances(const ReferenceBody& body, const Vec3& point, const Vec3& direction);
 
 }  // namespace tilelight::reference

@@ -32,6 +32,21 @@ std::vector<Visit> visits_of(const ReferenceScene& scene, const std::vector<Hit>
   return visits;
 }
 
+using Entry = std::pair<double, const Visit*>;  // how long the way through the body is
+
+// Of media entered together, the one left last is the outermost; of those left in one place, the one of lowest rank.
+void sort_outermost_first(const ReferenceScene& scene, std::vector<Entry>& entered) {
+  std::sort(entered.begin(), entered.end(), [](const Entry& a, const Entry& b) { return a.first > b.first; });
+  for (auto first = entered.begin(); first != entered.end();) {
+    const double nearest = first->first * (1.0 - 0x1p-40);
+    const auto last = std::find_if(first, entered.end(), [&](const Entry& e) { return e.first < nearest; });
+    std::sort(first, last, [&](const Entry& a, const Entry& b) {
+      return scene.body(a.second->body).rank < scene.body(b.second->body).rank;
+    });
+    first = last;
+  }
+}
+
 }  // namespace
 
 Interface make_interface(const ReferenceScene& scene, const MediaStack& media, const std::vector<Hit>& surfaces,
@@ -40,14 +55,12 @@ Interface make_interface(const ReferenceScene& scene, const MediaStack& media, c
   std::vector<Visit> visits = visits_of(scene, surfaces, direction);
   // From one part of a body into the next: nothing happens.
   std::erase_if(visits, [&](const Visit& v) { return v.net() == 0 && media.contains(v.body); });
-  std::vector<std::pair<double, const Visit*>> entered;
+  std::vector<Entry> entered;
   for (const Visit& v : visits) {
     if (v.net() < 0 && !out.here.contains(v.body)) out.here = out.here.with(v.body);
     if (v.net() > 0) entered.emplace_back(scene.way_through(*v.entry, direction), &v);
   }
-  // Of media entered together, the one left last is the outermost.
-  std::stable_sort(entered.begin(), entered.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first * (1.0 + 1e-12); });
+  sort_outermost_first(scene, entered);
   out.beyond = out.here;
   for (const Visit& v : visits)
     for (int i = v.net(); i < 0; ++i) out.beyond = out.beyond.without(v.body);

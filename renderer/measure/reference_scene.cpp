@@ -252,7 +252,7 @@ std::vector<uint32_t> ReferenceScene::media_around(const Vec3& point) const {
   std::vector<std::pair<double, uint32_t>> found;
   for (uint32_t id = 0; id < bodies_.size(); ++id) {
     if (!is_medium(id)) continue;
-    if (const auto exit = exit_distance(bodies_[id], point, direction)) found.emplace_back(-*exit, id);
+    for (const double exit : exit_distances(bodies_[id], point, direction)) found.emplace_back(-exit, id);
   }
   std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : bodies_[a.second].rank < bodies_[b.second].rank;

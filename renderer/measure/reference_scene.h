@@ -23,7 +23,7 @@ class ReferenceScene {
   const Attenuation& attenuation() const { return attenuation_; }
 
   // A medium: a solid whose material lets light through. Thin bodies (planes, open meshes, flat boxes) are none.
-  bool is_medium(uint32_t body_id) const { return bodies_[body_id].is_solid && is_transmissive_[body_id]; }
+  bool is_medium(uint32_t body_id) const { return bodies_[body_id].has_inside && is_transmissive_[body_id]; }
 
   // A ray that starts on the surface `left`.
   reference::Ray ray_from(const reference::Hit& left, const Vec3& direction, reference::Coincident coincident) const;
@@ -46,7 +46,8 @@ class ReferenceScene {
   // product of kt over the surfaces crossed, unrefracted.
   Color transmittance(const reference::Ray& ray, double distance) const;
 
-  // The media in which a point lies, outermost first (by where a ray of fixed direction leaves them).
+  // The media in which a point lies, outermost first (by where a ray of fixed direction leaves them); as often as they
+  // are around it.
   std::vector<uint32_t> media_around(const Vec3& point) const;
 
  private:

@@ -52,8 +52,9 @@ bool holds_eye(const CompiledBody& body, const Eye& eye) {
 // Which sign of the projected triangle's volume turns it away from the eye, so that something of its own body hides it;
 // 0 where both sides may be seen.
 double hidden_sign(const CompiledBody& body, const Eye& eye) {
-  const bool is_solid = body.kind == BodyKind::box ? body.closed : body.kind == BodyKind::mesh && body.mesh->is_solid;
-  if (!is_solid || holds_eye(body, eye)) return 0.0;
+  const bool is_outward =
+      body.kind == BodyKind::box ? body.has_inside : body.kind == BodyKind::mesh && body.mesh->is_known_outward;
+  if (!is_outward || holds_eye(body, eye)) return 0.0;
   return glm::determinant(Mat3(body.world_from_local)) < 0.0 ? -1.0 : 1.0;
 }
 

@@ -72,6 +72,8 @@ std::array<double, FaceLight::kMostCorners> FaceLight::weights_of(const Compiled
 // meet its plane on both sides of him, and what is kept must not depend on which came first.
 void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, const CompiledLight& light, Corners& brought) const {
   const CompiledBody& body = scene_.bodies[hit.body];
+  const bool has_normals = body.kind == BodyKind::mesh && !body.mesh->corner_normals.empty();
+  const bool is_lit_over_curve = has_normals && shading_ != Shading::flat && smooth_terminator_;
   const int corners = corners_of(body);
   LocalPoint middle = corner(body, hit.prim, 0);
   for (int i = 1; i < corners; ++i) middle.position += corner(body, hit.prim, i).position;
@@ -81,8 +83,7 @@ void FaceLight::light_corners(const Hit& hit, const Vec4& viewer, const Compiled
   for (int i = 0; i < corners; ++i) {
     Surface at = make_surface_at(scene_, seen, hit, corner(body, hit.prim, i));
     at.diffuse = Color(1.0);
-    const bool is_rounded = shading_ != Shading::flat && at.is_rounded && smooth_terminator_;
-    const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_rounded);
+    const LightSample sample = sample_light(scene_, light, at, way_to_viewer(viewer, at.position), is_lit_over_curve);
     brought[static_cast<size_t>(i)] = {sample.arriving, sample.diffuse, sample.specular, sample.is_lit};
   }
 }

@@ -103,12 +103,12 @@ HWY_INLINE MaskOf<R> comes_over_curve(const Of3<R>& geometric_normal, const Of3<
 template <bool kGlossy, class R>
 HWY_INLINE LightSampleOf<R> light_at(const CompiledScene& scene, const CompiledLight& light,
                                      const SurfaceOf<R>& surface, const GlossOf<R>& gloss, const Of3<R>& to_viewer,
-                                     MaskOf<R> is_rounded) {
+                                     MaskOf<R> is_lit_over_curve) {
   LightSampleOf<R> out;
   out.way = way_to(light, surface.position);
   const Of3<R>& to_light = out.way.to_light;
   const R cosine = dot(surface.normal, to_light);
-  const auto is_before = is_rounded | (dot(surface.geometric_normal, to_light) > R(0.0));
+  const auto is_before = is_lit_over_curve | (dot(surface.geometric_normal, to_light) > R(0.0));
   out.is_lit = (out.way.distance > R(0.0)) & (cosine > R(0.0)) & is_before;
   const Of3<R> none = of<R>(Vec3(0.0));
   out.arriving = out.diffuse = out.specular = none;

@@ -17,7 +17,7 @@ LightWay way_to_light(const CompiledLight& light, const Vec3& place) {
 }
 
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
-                         const Vec3& to_viewer, bool is_rounded) {
+                         const Vec3& to_viewer, bool is_lit_over_curve) {
   SurfaceOf<double> at;
   at.position = of<double>(surface.position);
   at.geometric_normal = of<double>(surface.geometric_normal);
@@ -25,7 +25,7 @@ LightSample sample_light(const CompiledScene& scene, const CompiledLight& light,
   at.diffuse = of<double>(surface.diffuse);
   const Material& m = surface.material->source;
   const GlossOf<double> gloss = {of<double>(m.specular), m.shininess, surface.material->is_specular};
-  const auto sample = light_at<true>(scene, light, at, gloss, of<double>(to_viewer), is_rounded);
+  const auto sample = light_at<true>(scene, light, at, gloss, of<double>(to_viewer), is_lit_over_curve);
   LightSample out;
   out.to_light = vec_of(sample.way.to_light), out.distance = sample.way.distance;
   out.arriving = vec_of(sample.arriving);

@@ -31,9 +31,9 @@ struct LightSample {
   Color specular{0.0};    // arriving * ks * (R.V)^n
   bool is_lit = false;    // on the light's side of the shading normal, and of the facet if that ends the light
 };
-// is_rounded: the light ends where the shading normal turns away from it, whatever the facet says.
+// is_lit_over_curve: the light ends where the shading normal turns away from it, whatever the facet says.
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, const Surface& surface,
-                         const Vec3& to_viewer, bool is_rounded);
+                         const Vec3& to_viewer, bool is_lit_over_curve);
 
 // The sky, mixed by the height of the unit ray direction.
 inline Color background_color(const Background& background, const Vec3& direction) {

@@ -65,7 +65,6 @@ Surface make_surface_at(const CompiledScene& scene, const Ray& ray, const Hit& h
   out.geometric_normal = vec_of(at.geometric_normal);
   out.normal = vec_of(at.normal);
   out.from_outside = at.from_outside;
-  out.is_rounded = body.kind == BodyKind::mesh && is_smooth(*body.mesh);
   out.ambient = vec_of(at.ambient), out.diffuse = vec_of(at.diffuse);
   return out;
 }

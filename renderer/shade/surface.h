@@ -12,7 +12,6 @@ struct Surface {
   Vec3 position{0.0};          // normalised world, reprojected onto the primitive
   Vec3 geometric_normal{0.0};  // unit, towards the viewer
   Vec3 normal{0.0};            // for shading: unit, on the side of the geometric one
-  bool is_rounded = false;     // a facet with interpolated normals: it stands for a curved surface
   bool from_outside = true;    // the ray meets the outer side: sign of Ng . d
   const CompiledBody* body = nullptr;
   const CompiledMaterial* material = nullptr;

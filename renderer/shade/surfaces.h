@@ -31,10 +31,12 @@ struct SurfaceOptions {
 struct SurfaceColumns {
   Column3 direction;  // of the ray
   Column3 position, geometric_normal, normal, ambient, diffuse;
-  Column3 curve;     // where a surface is rounded: the place above the facet, on the curved surface; else the position
+  Column3 curve;  // where light comes over a curve: the place above the facet, on the curved surface; else the position
   Column3 specular;  // ks; this, shininess and is_specular in scenes that have the feature alone
   Column shininess;
-  std::vector<uint8_t> from_outside, is_specular, is_rounded;  // 0 or 1
+  std::vector<uint8_t> from_outside, is_specular;  // 0 or 1
+  // 0 or 1: the facet stands for a curved surface, and this shading has the light end where that one does.
+  std::vector<uint8_t> is_lit_over_curve;
 };
 // REQUIRES: equal sizes.
 void make_surfaces(const CompiledScene& scene, std::span<const BoundedRay> rays, std::span<const Hit> hits,

@@ -36,7 +36,7 @@ struct LaneSurfaces {
   SurfaceOf<Lanes> surface;
   Of3<Lanes> curve;
   GlossOf<Lanes> gloss;
-  LaneMask is_rounded;
+  LaneMask is_lit_over_curve;
 };
 
 HWY_INLINE bool has_gloss(const CompiledScene& scene) {
@@ -74,7 +74,7 @@ class SurfaceMaker {
     store(all.surface.diffuse, out.diffuse, at);
     store(all.curve, out.curve, at);
     store(all.surface.from_outside, out.from_outside, at);
-    store(all.is_rounded, out.is_rounded, at);
+    store(all.is_lit_over_curve, out.is_lit_over_curve, at);
     if (!has_gloss_) return;
     store(all.gloss.specular, out.specular, at);
     store(all.gloss.shininess, &out.shininess[at]);
@@ -130,8 +130,8 @@ class SurfaceMaker {
     LaneSurfaces out;
     out.surface = seen(body, point_of_triangle(triangle, has_normals, u, v));
     out.curve = out.surface.position;
-    out.is_rounded = mask_of(is_rounded(has_normals) ? ~0u : 0u);
-    if (is_built_in(Feature::shadows) && options_.casts_shadows && is_rounded(has_normals))
+    out.is_lit_over_curve = mask_of(is_lit_over_curve(has_normals) ? ~0u : 0u);
+    if (is_built_in(Feature::shadows) && options_.casts_shadows && is_lit_over_curve(has_normals))
       out.curve = place_on_curve(body, triangle, u, v, out.surface.position, out.surface.from_outside);
     return out;
   }
@@ -146,11 +146,11 @@ class SurfaceMaker {
     LaneSurfaces out;
     out.surface = seen(body, point_of_solid(body, origins.lanes(), direction_, t.lanes(), prim.lanes()));
     out.curve = out.surface.position;
-    out.is_rounded = mask_of(0);
+    out.is_lit_over_curve = mask_of(0);
     return out;
   }
 
-  bool is_rounded(bool has_normals) const {
+  bool is_lit_over_curve(bool has_normals) const {
     return has_normals && options_.smooth_terminator && options_.shading != Shading::flat;
   }
 
@@ -163,7 +163,7 @@ class SurfaceMaker {
     take(more.surface.ambient, all.surface.ambient);
     take(more.surface.diffuse, all.surface.diffuse);
     take(more.curve, all.curve);
-    take(more.is_rounded, all.is_rounded);
+    take(more.is_lit_over_curve, all.is_lit_over_curve);
     if (!has_gloss_) return;
     take(more.gloss.specular, all.gloss.specular);
     take(more.gloss.shininess, all.gloss.shininess);
@@ -196,10 +196,10 @@ void make_surface_columns(const CompiledScene& scene, std::span<const BoundedRay
 }
 
 // Makes the ways of shadow rays that start on the curved surface ready; returned is whose do.
-HWY_INLINE LaneMask leave_from_curve(const CompiledLight& light, LaneMask is_rounded, const SurfaceOf<Lanes>& surface,
-                                     const Of3<Lanes>& curve, LightWayOf<Lanes>& way) {
+HWY_INLINE LaneMask leave_from_curve(const CompiledLight& light, LaneMask is_over_curve,
+                                     const SurfaceOf<Lanes>& surface, const Of3<Lanes>& curve, LightWayOf<Lanes>& way) {
   const Of3<Lanes> lift = curve - surface.position;
-  LaneMask out = is_rounded & comes_over_curve(surface.geometric_normal, way.to_light) &
+  LaneMask out = is_over_curve & comes_over_curve(surface.geometric_normal, way.to_light) &
                  (dot(lift, lift) > Lanes(kLeastLift * kLeastLift));
   if (is_directional(light) || !any(out)) return out;
   const auto lifted = way_to(light, curve);
@@ -220,14 +220,14 @@ HWY_INLINE void light_columns(const CompiledScene& scene, const CompiledLight& l
     surface.diffuse = load(surfaces.diffuse, i);
     GlossOf<Lanes> gloss;
     if (kGlossy) gloss = {load(surfaces.specular, i), load(&surfaces.shininess[i]), load(surfaces.is_specular, i)};
-    const LaneMask is_rounded = load(surfaces.is_rounded, i);
-    const auto sample = light_at<kGlossy>(scene, light, surface, gloss, -load(surfaces.direction, i), is_rounded);
+    const LaneMask is_over_curve = load(surfaces.is_lit_over_curve, i);
+    const auto sample = light_at<kGlossy>(scene, light, surface, gloss, -load(surfaces.direction, i), is_over_curve);
     store(kGlossy ? sample.diffuse + sample.specular : sample.diffuse, out.light, i);
     store(sample.way.distance == Lanes(0.0), out.is_at_light, i);
     LightWayOf<Lanes> way = sample.way;
     LaneMask is_from_curve = mask_of(0);
-    if (is_built_in(Feature::shadows) && casts_shadow && any(is_rounded))
-      is_from_curve = leave_from_curve(light, is_rounded, surface, load(surfaces.curve, i), way);
+    if (is_built_in(Feature::shadows) && casts_shadow && any(is_over_curve))
+      is_from_curve = leave_from_curve(light, is_over_curve, surface, load(surfaces.curve, i), way);
     store(is_from_curve, out.is_from_curve, i);
     store(way.to_light, out.to_light, i);
     store(way.distance, &out.distance[i]);
@@ -281,7 +281,8 @@ void make_surfaces(const CompiledScene& scene, std::span<const BoundedRay> rays,
                            &out.diffuse, &out.curve, &out.specular})
     make_room(*columns, rays.size());
   out.shininess.resize(with_room(rays.size()));
-  for (auto* flags : {&out.from_outside, &out.is_specular, &out.is_rounded}) flags->resize(with_room(rays.size()));
+  for (auto* flags : {&out.from_outside, &out.is_specular, &out.is_lit_over_curve})
+    flags->resize(with_room(rays.size()));
   HWY_DYNAMIC_DISPATCH(make_surface_columns)(scene, rays, hits, options, out);
 }
 
@@ -290,7 +291,6 @@ Surface surface_of(const CompiledScene& scene, const SurfaceColumns& surfaces, c
   out.position = surfaces.position[index];
   out.geometric_normal = surfaces.geometric_normal[index];
   out.normal = surfaces.normal[index];
-  out.is_rounded = surfaces.is_rounded[index];
   out.from_outside = surfaces.from_outside[index];
   out.body = &scene.bodies[hit.body];
   out.material = &scene.materials[out.body->material];

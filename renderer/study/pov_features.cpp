@@ -30,7 +30,7 @@ bool any_material(const Subject& s, Holds holds) {
 template <class Holds>
 bool any_medium(const Subject& s, Holds holds) {
   return any_body(s, [&](const Body& body) {
-    return body.is_solid && is_clear(material_of(s, body)) && holds(material_of(s, body));
+    return body.has_inside && is_clear(material_of(s, body)) && holds(material_of(s, body));
   });
 }
 
@@ -54,7 +54,7 @@ bool has_partial_fresnel(const Subject& s) {
 bool bends_at_curves(const Subject& s) {
   return any_body(s, [&](const Body& body) {
     const Material& m = material_of(s, body);
-    return body.is_solid && is_clear(m) && m.ior != 1.0 && body.mesh && !body.mesh->corner_normals.empty();
+    return body.has_inside && is_clear(m) && m.ior != 1.0 && body.mesh && !body.mesh->corner_normals.empty();
   });
 }
 

@@ -52,7 +52,7 @@ bool is_within(const Placed& inner, const Body& outer) {
 
 // A ray that leaves one medium for another meets no Fresnel term in POV-Ray.
 bool is_nested_alike(const Placed& inner, const Placed& outer) {
-  return is_within(inner, *outer.body) && inner.body->is_solid &&
+  return is_within(inner, *outer.body) && inner.body->has_inside &&
          inner.material->priority >= outer.material->priority && !inner.material->fresnel;
 }
 

@@ -27,7 +27,7 @@ constexpr double kLeastFade = 1e-4;  // fade_distance where k is 0; light comes 
 // bends a millionth, each body by another one.
 double counted_ior(const Body& body, const Material& m, size_t index) {
   constexpr double kLeast = 1e-6;
-  const double ior = body.is_solid ? m.ior : 1.0;
+  const double ior = body.has_inside ? m.ior : 1.0;
   return std::abs(ior - 1.0) < kLeast ? 1.0 + kLeast * static_cast<double>(1 + index % 64) : ior;
 }
 
@@ -134,7 +134,7 @@ class Writer {
 
   void add_body(const Body& body) {
     const Material& material = scene_.materials[body.material];
-    const bool is_flat_box = body.kind == BodyKind::box && !body.is_solid;
+    const bool is_flat_box = body.kind == BodyKind::box && !body.has_inside;
     if (body.kind == BodyKind::mesh) {
       add_mesh_body(body, *body.mesh, body.mesh.get());
     } else if (body.kind == BodyKind::box && (is_flat_box || is_checkered(material))) {
@@ -168,7 +168,7 @@ class Writer {
       objects_.add("box { -1, 1"), objects_.matrix(unit_box);
     }
     const int flat_axis = body.kind == BodyKind::plane ? 1 : 3;
-    objects_.add(" texture { " + textures_.name_of(body.material, {body.is_solid, flat_axis}));
+    objects_.add(" texture { " + textures_.name_of(body.material, {body.has_inside, flat_axis}));
     if (is_checkered(scene_.materials[body.material])) objects_.matrix(place * glm::inverse(body.pattern_from_local));
     objects_.add(" }");
     end_body(body);
@@ -185,10 +185,10 @@ class Writer {
       to_mesh.matrix(space.mesh_from_local * glm::inverse(body.pattern_from_local));
       faces.emplace();
       for (int axis = 0; axis < 3; ++axis)
-        (*faces)[axis] = textures_.name_of(body.material, {body.is_solid, axis}) + to_mesh.str();
+        (*faces)[axis] = textures_.name_of(body.material, {body.has_inside, axis}) + to_mesh.str();
     }
     objects_.add("object { " + mesh_name(mesh, key, space, has_faces ? &body : nullptr, faces));
-    if (!has_faces) objects_.add(" texture { " + textures_.name_of(body.material, {body.is_solid, 3}) + " }");
+    if (!has_faces) objects_.add(" texture { " + textures_.name_of(body.material, {body.has_inside, 3}) + " }");
     objects_.matrix(space_.from_local(body.world_from_local * space.local_from_mesh));
     end_body(body);
   }
@@ -199,7 +199,7 @@ class Writer {
     const auto material = textured ? std::optional(textured->material) : std::nullopt;
     std::string name = "Mesh" + std::to_string(mesh_count_);
     if (key) {
-      const auto [known, is_new] = mesh_names_.try_emplace({key, material, textured && textured->is_solid}, name);
+      const auto [known, is_new] = mesh_names_.try_emplace({key, material, textured && textured->has_inside}, name);
       if (!is_new) return known->second;
     }
     ++mesh_count_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "renderer/compile/passes.h"
@@ -18,22 +17,30 @@ namespace {
 constexpr auto kAhead = [](double t, uint32_t) { return t > 0.0; };
 constexpr auto kExact = [] { return Vec3(0.0); };
 
-// Inside or outside by the sign of Ng.d at the nearest triangle along the ray; where two shells touch, the one side is
-// as good as the other, and the next triangle tells.
-std::optional<double> mesh_exit(const CompiledScene& scene, uint32_t index, const Ray& ray) {
-  Ray on = ray;
+// The winding number by the ways out less the ways in. It falls by one where the mesh ends once more.
+void find_mesh_exits(const CompiledScene& scene, uint32_t index, Ray ray, std::vector<double>& exits) {
+  const bool nearest_tells = scene.bodies[index].mesh->is_known_outward;
+  std::vector<std::pair<double, int>> entries;  // along the ray: how far, and how often more entered than left
+  int around = 0;
   for (double gone = 0.0;;) {
-    const Hit hit = trace_body(scene, index, on);
-    if (!hit.is_hit()) return std::nullopt;
-    const Surface surface = make_surface(scene, on, hit);
+    const Hit hit = trace_body(scene, index, ray);
+    if (!hit.is_hit()) break;
     gone += hit.t;
-    if (!is_between_shells(scene, on, hit)) return surface.from_outside ? std::nullopt : std::optional(gone);
-    on = {surface.position, ray.direction, surface.here, Coincident::none};
+    entries.emplace_back(gone, times_entered(scene, ray, hit));
+    around -= entries.back().second;
+    if (nearest_tells && entries.back().second != 0) break;
+    const Surface surface = make_surface(scene, ray, hit);
+    ray = {surface.position, ray.direction, surface.here, Coincident::none};
+  }
+  int least = around;
+  for (const auto& [distance, entered] : entries) {
+    around += entered;
+    for (; least > std::max(around, 0); --least) exits.push_back(distance);
   }
 }
 
-// How far it is along the ray to the surface of the body; none if the ray starts outside.
-std::optional<double> exit_distance(const CompiledScene& scene, uint32_t index, const Ray& world_ray) {
+// Adds how far it is along the ray to where the body ends: once for every time that it is around the ray's start.
+void find_exits(const CompiledScene& scene, uint32_t index, const Ray& world_ray, std::vector<double>& exits) {
   const CompiledBody& body = scene.bodies[index];
   const LocalRay ray = to_local(body, world_ray);
   const Vec3 p = glm::abs(ray.origin);
@@ -41,17 +48,19 @@ std::optional<double> exit_distance(const CompiledScene& scene, uint32_t index, 
   uint32_t face = 0;
   switch (body.kind) {
     case BodyKind::sphere:
-      if (!(glm::dot(p, p) < 1.0) || !intersect_sphere(ray, false, kAhead, t)) return std::nullopt;
-      return t;
+      if (glm::dot(p, p) < 1.0 && intersect_sphere(ray, false, kAhead, t)) exits.push_back(t);
+      break;
     case BodyKind::box:
-      if (!(p.x < body.half.x && p.y < body.half.y && p.z < body.half.z)) return std::nullopt;
-      return intersect_box(body.half, ray, kNone, kAhead, kExact, t, face) ? std::optional(t) : std::nullopt;
+      if (p.x < body.half.x && p.y < body.half.y && p.z < body.half.z &&
+          intersect_box(body.half, ray, kNone, kAhead, kExact, t, face))
+        exits.push_back(t);
+      break;
     case BodyKind::mesh:
-      return mesh_exit(scene, index, world_ray);
+      find_mesh_exits(scene, index, world_ray, exits);
+      break;
     case BodyKind::plane:
       break;
   }
-  return std::nullopt;
 }
 
 struct Interval {
@@ -105,8 +114,11 @@ MediaList EyeMedia::around(const Vec3& start, std::span<const uint32_t> some) co
   // Along no axis or diagonal of a modelled shape.
   const Ray ray{start, glm::normalize(Vec3(0.31415, 0.59265, 0.35897)), {}};
   std::vector<std::pair<double, uint32_t>> found;  // by distance, the farthest first: the order of entering
+  std::vector<double> exits;
   for (const uint32_t body : some) {
-    if (const auto exit = exit_distance(scene_, body, ray)) found.emplace_back(-*exit, body);
+    exits.clear();
+    find_exits(scene_, body, ray, exits);
+    for (const double exit : exits) found.emplace_back(-exit, body);
   }
   std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : scene_.bodies[a.second].rank < scene_.bodies[b.second].rank;

@@ -13,7 +13,8 @@
 
 namespace tilelight {
 
-using MediaList = std::vector<uint32_t>;  // indices into CompiledScene::bodies, outermost first
+// Indices into CompiledScene::bodies, outermost first; one that is there twice is so because its shells overlap.
+using MediaList = std::vector<uint32_t>;
 
 class EyeMedia {
  public:
@@ -23,7 +24,7 @@ class EyeMedia {
   const MediaList& around_all() const { return around_all_; }
   // The media that may hold the start of a ray of these pixels, but need not hold all. Empty in perspective.
   MediaList some_near(const TileRect& pixels) const;
-  // Which of them hold a start, normalised world.
+  // Which of them hold a start, normalised world, and how often.
   MediaList around(const Vec3& start, std::span<const uint32_t> some) const;
 
  private:

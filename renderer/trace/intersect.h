@@ -77,8 +77,8 @@ inline double steepness(const CompiledBody& body, const LocalRay& ray, const Vec
   return std::abs(facing(body, ray, world_direction, prim, t));
 }
 
-// How far two bodies' surfaces may lie apart, by the rounding of boxes' faces far from the origin, that the document
-// puts in one place. It matters where light goes on from the one into the other.
+// How far two bodies' surfaces may lie apart, by the rounding of numbers far from the origin, that the document puts in
+// one place. It matters where light goes on from the one into the other.
 inline double face_rounding(const CompiledBody& a, const CompiledBody& b) {
   return a.layer == Layer::opaque && b.layer == Layer::opaque ? 0.0 : a.face_rounding + b.face_rounding;
 }

@@ -20,13 +20,21 @@ bool goes_in(const CompiledScene& scene, const Vec3& place, const Vec3& directio
 
 }  // namespace
 
+void Passage::add(const CompiledScene& scene, const Vec3& place, const Vec3& direction, const Hit& hit) {
+  constexpr double kOnEdge = 1e-9;
+  Side& side = goes_in(scene, place, direction, hit) ? in : out;
+  if (!side.first.is_hit()) side.first = hit;
+  const bool is_inner = std::min({hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1}) > kOnEdge;
+  side.inner += is_inner && scene.bodies[hit.body].kind == BodyKind::mesh;
+}
+
 // Fills surfaces_. What the ray has dealt with where it starts is not among them.
 void PlaceCrosser::find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& place) {
   find_surfaces(scene_, place, ray.direction, hit.body, surfaces_);
-  std::erase_if(surfaces_, [&](Hit& other) {
+  for (Hit& other : surfaces_) other.t += hit.t;
+  std::erase_if(surfaces_, [&](const Hit& other) {
     if (other.body == hit.body && (other.prim == hit.prim || !scene_.bodies[hit.body].may_touch_itself)) return true;
     if (other.body == ray.left.body && other.prim == ray.left.prim) return true;
-    other.t += hit.t;
     return lies_at_start(scene_, ray, other) && !is_met_at_start(scene_, ray, other.body);
   });
   surfaces_.push_back(hit);
@@ -38,14 +46,10 @@ void PlaceCrosser::find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& 
 
 // Fills passages_, one a body.
 void PlaceCrosser::find_passages(const Vec3& place, const Vec3& direction) {
-  constexpr double kOnEdge = 1e-9;
   passages_.clear();
   for (const Hit& hit : surfaces_) {
     if (passages_.empty() || passages_.back().body != hit.body) passages_.push_back({hit.body, {}, {}});
-    Side& side = goes_in(scene_, place, direction, hit) ? passages_.back().in : passages_.back().out;
-    if (!side.first.is_hit()) side.first = hit;
-    const bool is_inner = std::min({hit.b0, hit.b1, 1.0 - hit.b0 - hit.b1}) > kOnEdge;
-    side.inner += is_inner && scene_.bodies[hit.body].kind == BodyKind::mesh;
+    passages_.back().add(scene_, place, direction, hit);
   }
 }
 
@@ -59,9 +63,15 @@ void PlaceCrosser::sort_outermost_first(const Vec3& place, const Vec3& direction
     const Ray inside{place, direction, {body, passage->in.first.prim}, Coincident::none};
     by_exit.emplace_back(trace_body(scene_, body, inside).t, body);
   }
-  // Exits closer together than a long way is rounded by are in one place.
-  std::stable_sort(by_exit.begin(), by_exit.end(),
-                   [](const auto& a, const auto& b) { return a.first * (1.0 - 0x1p-40) > b.first; });
+  using Exit = std::pair<double, uint32_t>;
+  std::stable_sort(by_exit.begin(), by_exit.end(), [](const Exit& a, const Exit& b) { return a.first > b.first; });
+  // Exits closer together than a long way is rounded by are in one place, in which rank counts.
+  for (auto first = by_exit.begin(); first != by_exit.end();) {
+    const double same = first->first * (1.0 - 0x1p-40);
+    const auto last = std::find_if(first, by_exit.end(), [&](const Exit& exit) { return exit.first < same; });
+    std::sort(first, last, [&](const Exit& a, const Exit& b) { return sets_.rank(a.second) < sets_.rank(b.second); });
+    first = last;
+  }
   for (size_t i = 0; i < entered_.size(); ++i) entered_[i] = by_exit[i].second;
 }
 
@@ -69,7 +79,7 @@ Crossing PlaceCrosser::cross_all(const Vec3& place, const Vec3& direction, Media
   find_passages(place, direction);
   entered_.clear(), left_.clear(), thinner_.clear();
   for (const Passage& passage : passages_) {
-    const int net = passage.in.count() - passage.out.count();
+    const int net = passage.net();
     if (net > 0) entered_.insert(entered_.end(), static_cast<size_t>(net), passage.body);
     if (net < 0) left_.insert(left_.end(), static_cast<size_t>(-net), passage.body);
     // A body of which the ray leaves one shell and enters the next goes on.
@@ -79,7 +89,7 @@ Crossing PlaceCrosser::cross_all(const Vec3& place, const Vec3& direction, Media
   const Crossing crossing(sets_, media, entered_, left_, thinner_);
   for (const Passage& passage : passages_) {
     if (passage.body != crossing.seen) continue;
-    hit = passage.in.count() >= passage.out.count() ? passage.in.first : passage.out.first;
+    hit = passage.net() >= 0 ? passage.in.first : passage.out.first;
   }
   return crossing;
 }
@@ -110,16 +120,17 @@ Color PlaceCrosser::tint(const Ray& ray, const Hit& hit) {
   return product;
 }
 
-bool is_between_shells(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
-  if (!scene.bodies[hit.body].may_touch_itself) return false;
-  const Vec3 place = make_surface(scene, ray, hit).position;
+int times_entered(const CompiledScene& scene, const Ray& ray, const Hit& hit) {
+  const Surface surface = make_surface(scene, ray, hit);
+  if (!scene.bodies[hit.body].may_touch_itself) return surface.from_outside ? 1 : -1;
   std::vector<Hit> surfaces;
-  find_surfaces(scene, place, ray.direction, hit.body, surfaces);
-  bool enters = false, leaves = false;
+  find_surfaces(scene, surface.position, ray.direction, hit.body, surfaces);
+  Passage passage{hit.body, {}, {}};
+  passage.add(scene, surface.position, ray.direction, hit);
   for (const Hit& other : surfaces) {
-    if (other.body == hit.body) (goes_in(scene, place, ray.direction, other) ? enters : leaves) = true;
+    if (other.body == hit.body && other.prim != hit.prim) passage.add(scene, surface.position, ray.direction, other);
   }
-  return enters && leaves;
+  return passage.net();
 }
 
 }  // namespace tilelight

@@ -9,6 +9,20 @@
 
 namespace tilelight {
 
+// What a ray does with a body whose surfaces lie in one place.
+struct Passage {
+  struct Side {
+    Hit first;      // no hit if the ray does not cross this way
+    int inner = 0;  // surfaces that are met in their middle; on an edge one is met as two
+    int count() const { return inner > 0 ? inner : first.is_hit(); }
+  };
+  uint32_t body = kNone;
+  Side in, out;
+
+  void add(const CompiledScene& scene, const Vec3& place, const Vec3& direction, const Hit& hit);
+  int net() const { return in.count() - out.count(); }  // how often more it is entered than left
+};
+
 class PlaceCrosser {
  public:
   PlaceCrosser(const CompiledScene& scene, MediaSets& sets) : scene_(scene), sets_(sets) {}
@@ -21,16 +35,6 @@ class PlaceCrosser {
   Color tint(const Ray& ray, const Hit& hit);
 
  private:
-  // What a ray does with a body whose surfaces lie in the place.
-  struct Side {
-    Hit first;      // no hit if the ray does not cross this way
-    int inner = 0;  // surfaces that are met in their middle; on an edge one is met as two
-    int count() const { return inner > 0 ? inner : first.is_hit(); }
-  };
-  struct Passage {
-    uint32_t body = kNone;
-    Side in, out;
-  };
   void find_surfaces_at(const Ray& ray, const Hit& hit, const Vec3& place);
   void find_passages(const Vec3& place, const Vec3& direction);
   Crossing cross_all(const Vec3& place, const Vec3& direction, MediaSets::Set media, Hit& hit);
@@ -43,8 +47,8 @@ class PlaceCrosser {
   std::vector<uint32_t> entered_, left_, thinner_;
 };
 
-// Whether a point of a transparent mesh's surface is one where another of its shells begins: the ray leaves the one and
-// enters the other.
-bool is_between_shells(const CompiledScene& scene, const Ray& ray, const Hit& hit);
+// How often more the ray enters the body than it leaves it where it meets it, all of its surfaces in the place taken
+// together: 0 where it goes from one shell of a mesh into the next.
+int times_entered(const CompiledScene& scene, const Ray& ray, const Hit& hit);
 
 }  // namespace tilelight

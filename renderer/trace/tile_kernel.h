@@ -356,7 +356,7 @@ class TileKernel {
   void pass_facets(const CompiledLight& light) {
     for (size_t p = 0; p < pending_.size(); ++p) {
       const size_t i = pending_[p].hit;
-      if (!surfaces_.is_rounded[i] || lit_.is_from_curve[i] || visible_[p] == Color(1.0)) continue;
+      if (!surfaces_.is_lit_over_curve[i] || lit_.is_from_curve[i] || visible_[p] == Color(1.0)) continue;
       const double reach =
           reach_of_facets(scene_, {hits_[i].body, hits_[i].prim}, surfaces_.geometric_normal[i], lit_.to_light[i]);
       if (reach == 0.0 || !(lift_at(i) > kLeastLift)) continue;
@@ -520,9 +520,9 @@ class TileKernel {
       if (!is_hit) continue;
       for (size_t l = 0; l < scene_.lights.size(); ++l) {
         const CompiledLight& light = scene_.lights[l];
-        const LightSample sample = is_by_face(hits_[i])
-                                       ? face_light_.sample(hits_[i], surface, viewer_of(ray, path), path.depth == 0, l)
-                                       : sample_light(scene_, light, surface, -ray.direction, surface.is_rounded);
+        const LightSample sample =
+            is_by_face(hits_[i]) ? face_light_.sample(hits_[i], surface, viewer_of(ray, path), path.depth == 0, l)
+                                 : sample_light(scene_, light, surface, -ray.direction, surfaces_.is_lit_over_curve[i]);
         job_.listener->on_light(light, sample, sample.is_lit ? seen_[l * rays.size() + i] : Color(0.0));
       }
     }

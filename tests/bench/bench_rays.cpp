@@ -48,7 +48,8 @@ Batches shadow_rays(const CompiledScene& scene, const Batches& primary) {
       for (size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].is_hit()) continue;
         const Surface surface = make_surface(scene, rays[i].ray, hits[i]);
-        const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction, surface.is_rounded);
+        const bool is_smooth = surface.body->mesh && !surface.body->mesh->corner_normals.empty();
+        const LightSample sample = sample_light(scene, light, surface, -rays[i].ray.direction, is_smooth);
         if (sample.is_lit) out.push_back({{surface.position, sample.to_light, surface.here}, sample.distance});
       }
     }

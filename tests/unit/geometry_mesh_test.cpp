@@ -115,7 +115,7 @@ TEST(UserMesh, GivenNormalsAreNormalisedAndZeroOnesTakeTheFacets) {
   EXPECT_EQ(mesh.corner_normals[0][2], Vec3(0, 0, 1));
 }
 
-TEST(UserMesh, AnOpenAFlippedAndADoubledMeshAreNotClosed) {
+TEST(UserMesh, AnOpenAndAFlippedMeshAreNotClosedADoubledOneIs) {
   MeshData open = cube(30.0);
   open.indices.resize(33);
   EXPECT_FALSE(make_tri_mesh(open).closed);
@@ -125,7 +125,8 @@ TEST(UserMesh, AnOpenAFlippedAndADoubledMeshAreNotClosed) {
   MeshData doubled = cube(30.0);
   const std::vector<uint32_t> once = doubled.indices;
   doubled.indices.insert(doubled.indices.end(), once.begin(), once.end());
-  EXPECT_FALSE(make_tri_mesh(doubled).closed);
+  EXPECT_TRUE(make_tri_mesh(doubled).closed);
+  EXPECT_FALSE(make_tri_mesh(doubled).is_manifold);
 }
 
 TEST(UserMesh, AFoldedSheetsOppositeFacetsDoNotAverageToNothing) {

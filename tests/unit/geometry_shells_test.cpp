@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/geometry/shells.h"
 
@@ -78,6 +79,78 @@ TEST(Shells, ThatTouchAreToldApart) {
   EXPECT_EQ(turned_of({{Vec3(0, 0, 0), 1, true}, {Vec3(2, 2, 0), 1, false}}), (std::vector{0, 12}));
   EXPECT_EQ(turned_of({{Vec3(0, 0, 0), 1, true}, {Vec3(2, 0, 0), 1, true}}), (std::vector{0, 0}));
   EXPECT_EQ(turned_of({{Vec3(0, 0, 0), 1, false}, {Vec3(2, 0, 0), 1, false}}), (std::vector{12, 12}));
+}
+
+// Every facet from its lowest corner on, in ascending order, after what is inside out was turned.
+using Facet = std::array<std::array<double, 3>, 3>;
+std::vector<Facet> facets_of(const std::vector<Cube>& cubes) {
+  MeshData data;
+  for (const Cube& cube : cubes) add_cube(data, cube.middle, cube.half, cube.from_outside);
+  TriMesh mesh = make_tri_mesh(data);
+  const std::vector<bool> is_turned = find_inside_out(mesh, find_shells(mesh));
+  if (!is_turned.empty()) mesh = with_turned(mesh, is_turned);
+  std::vector<Facet> facets;
+  for (const auto& triangle : mesh.triangles) {
+    Facet& facet = facets.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.positions[triangle[k]];
+      facet[k] = {p.x, p.y, p.z};
+    }
+    std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+  }
+  std::sort(facets.begin(), facets.end());
+  return facets;
+}
+
+// The face between two of them is there twice, wound the same way, and either copy may be the one that is turned.
+TEST(Shells, OfCubesWithFacesInCommonAreTurnedWhereOneAloneIsInsideOut) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-2.0, 2.0}) {
+      Vec3 next(0.0);
+      next[axis] = side;
+      std::vector<Cube> row = {{next, 1, true}, {Vec3(0.0), 1, true}, {-next, 1, true}};
+      const auto right = facets_of(row);
+      for (Cube& cube : row) {
+        cube.from_outside = false;
+        EXPECT_EQ(facets_of(row), right) << axis << side;
+        cube.from_outside = true;
+      }
+      const std::vector<Cube> pair = {{Vec3(0.0), 1, true}, {next, 1, true}},
+                              wrong = {{Vec3(0.0), 1, true}, {next, 1, false}};
+      EXPECT_EQ(facets_of(wrong), facets_of(pair)) << axis << side;
+    }
+  }
+  std::vector<Cube> four = {{{-1, -1, 0}, 1, true}, {{1, -1, 0}, 1, true}, {{1, 1, 0}, 1, true}, {{-1, 1, 0}, 1, true}};
+  const auto right = facets_of(four);
+  for (Cube& cube : four) {
+    cube.from_outside = false;
+    EXPECT_EQ(facets_of(four), right) << "around an edge";
+    cube.from_outside = true;
+  }
+}
+
+TEST(Shells, OfACubeWithAFacetAddedBothWaysAreTheCubeAndASheet) {
+  for (size_t facet = 0; facet < 12; ++facet) {
+    for (const bool from_outside : {true, false}) {
+      MeshData data;
+      add_cube(data, Vec3(0.0), 1.0, from_outside);
+      const std::array corner = {data.indices[3 * facet], data.indices[3 * facet + 1], data.indices[3 * facet + 2]};
+      data.indices.insert(data.indices.end(), {corner[0], corner[1], corner[2], corner[2], corner[1], corner[0]});
+      const TriMesh mesh = make_tri_mesh(data);
+      ASSERT_TRUE(mesh.closed);
+      Shells shells = find_shells(mesh);
+      std::sort(shells.volume.begin(), shells.volume.end(),
+                [](double a, double b) { return std::abs(a) > std::abs(b); });
+      ASSERT_EQ(shells.volume.size(), 2u);
+      EXPECT_EQ(shells.volume[0] > 0.0, from_outside);
+      EXPECT_EQ(shells.volume[1], 0.0);
+    }
+  }
+}
+
+TEST(Shells, OfACubeThatIsThereTwiceAreTwoCubes) {
+  EXPECT_EQ(turned_of({{Vec3(0.0), 1, true}, {Vec3(0.0), 1, true}}), (std::vector{0, 0}));
+  EXPECT_EQ(turned_of({{Vec3(0.0), 1, false}, {Vec3(0.0), 1, false}}), (std::vector{12, 12}));
 }
 
 TEST(Shells, OfASheetWithABackHoldNoVolume) {

@@ -250,6 +250,32 @@ TEST(ReferenceMedia, AreKnownToAnEyeInside) {
   EXPECT_NEAR(sine_to_z(seen.rays[2].direction), 1.5 * sine_to_z(seen.rays[0].direction), 1e-13);
 }
 
+// Two cubes of edge 2 in one mesh, the second moved along x.
+TEST(ReferenceMedia, AreAroundAnEyeAsOftenAsTheShellsOfAMeshOverlapThere) {
+  const auto scene_of = [](double moved) {
+    Scene scene = dark_scene();
+    MeshData two = box_mesh(Vec3(1.0));
+    const MeshData one = two;
+    for (const Vec3& p : one.positions) two.positions.push_back(p + Vec3(moved, 0, 0));
+    for (const uint32_t i : one.indices) two.indices.push_back(i + static_cast<uint32_t>(one.positions.size()));
+    scene.meshes.push_back(two);
+    add_object(scene, MeshShape{0}, add_material(scene, clear(Color(0.0), Color(1.0), 1.5)));
+    return ReferenceScene(scene);
+  };
+  using Ids = std::vector<uint32_t>;
+  const ReferenceScene overlapping = scene_of(0.5), touching = scene_of(2.0);
+  EXPECT_EQ(overlapping.media_around(Vec3(0.2, 0.1, 0)), (Ids{0, 0}));
+  EXPECT_EQ(overlapping.media_around(Vec3(-0.8, 0.1, 0)), Ids{0});
+  EXPECT_EQ(overlapping.media_around(Vec3(1.3, 0.1, 0)), Ids{0});
+  EXPECT_EQ(overlapping.media_around(Vec3(1.6, 0.1, 0)), Ids{});
+  const Vec3 x(1, 0, 0), at(0.2, 0.1, 0.3);
+  EXPECT_EQ(reference::exit_distances(overlapping.body(0), at, x).size(), 2u);
+  EXPECT_NEAR(reference::exit_distances(overlapping.body(0), at, x)[0], 1.3, 1e-15);
+  EXPECT_NEAR(reference::exit_distances(overlapping.body(0), at, x)[1], 0.8, 1e-15);
+  ASSERT_EQ(reference::exit_distances(touching.body(0), at, x).size(), 1u);
+  EXPECT_NEAR(reference::exit_distances(touching.body(0), at, x)[0], 2.8, 1e-15) << "through both";
+}
+
 TEST(ReferenceMedia, OfABubbleInGlassBendAsGlassInAirTurnedAround) {
   const auto sine_inside = [](double outer, double inner) {
     Scene scene = dark_scene();

@@ -97,6 +97,29 @@ TEST(Render, GivesTheBytesOfTheKernelThatCanDoAllWhereALeanerOneIsChosen) {
   }
 }
 
+// Inside two glued cubes of one mesh the face between them shows at no depth.
+TEST(Render, AtDepthZeroShowsWhatDepthOneShowsOfOneMeshOfTwoShells) {
+  TilePool pool(2);
+  const std::string json =
+      R"({"image": {"width": 48, "height": 48}, "render": {"samples": 1, "max_depth": %d, "weight_cutoff": 0},
+    "lights": [], "ambient": 1, "background": {"bottom": 0, "top": 0},
+    "camera": {"position": [0.5, 0.4, 0.5], "target": [0.7, 1.6, 0.6], "fov_y_deg": 60},
+    "materials": {"g": {"diffuse": 0, "transmission": 1e-30, "ambient": {"checker": {"size": 0.05, "a": 1, "b": 0.1}}}},
+    "meshes": {"two": {"positions": [0,0,0, 1,0,0, 0,1,0, 1,1,0, 0,0,1, 1,0,1, 0,1,1, 1,1,1, 0,2,0, 1,2,0, 0,2,1, 1,2,1],
+      "indices": [0,4,6, 0,6,2, 1,3,7, 1,7,5, 0,1,5, 0,5,4, 2,6,7, 2,7,3, 0,2,3, 0,3,1, 4,5,7, 4,7,6,
+                  2,6,10, 2,10,8, 3,9,11, 3,11,7, 2,3,7, 2,7,6, 8,10,11, 8,11,9, 2,8,9, 2,9,3, 6,7,11, 6,11,10]}},
+    "objects": [{"type": "mesh", "mesh": "two", "material": "g"}]})";
+  const auto image_at = [&](int depth) {
+    std::string at_depth = json;
+    at_depth.replace(at_depth.find("%d"), 2, std::to_string(depth));
+    const Prepared p = prepare(pool, at_depth.c_str());
+    const auto render = Render::start(pool, Priority::normal, p.scene, plan_view(*p.scene, p.view));
+    EXPECT_TRUE(render->wait_ms(1e12));
+    return render->image()->rgb;
+  };
+  EXPECT_EQ(image_at(0), image_at(1));
+}
+
 TEST(Render, GivesTheSameBytesOnEveryInstructionSet) {
   const auto two_samples = [](RenderSpec& spec) { spec.samples = 2; };
   const auto expected = render(2, 32, two_samples);

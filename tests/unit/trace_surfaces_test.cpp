@@ -92,7 +92,8 @@ TEST_F(Surfaces, AreThoseOfOneHitToTheLastBit) {
       differing += one.position != column.position || one.geometric_normal != column.geometric_normal ||
                    one.normal != column.normal || one.from_outside != column.from_outside ||
                    one.ambient != column.ambient || one.diffuse != column.diffuse ||
-                   one.is_rounded != column.is_rounded || mirror_direction(one, rays_[i].ray.direction) != mirrored[i];
+                   columns.is_lit_over_curve[i] != (one.body->mesh && !one.body->mesh->corner_normals.empty()) ||
+                   mirror_direction(one, rays_[i].ray.direction) != mirrored[i];
     }
     EXPECT_EQ(differing, 0) << isa;
   }
@@ -129,7 +130,7 @@ TEST_F(Surfaces, OfRoundedFacetsHaveTheCurveAboveThem) {
   for (size_t i = 0; i < rays_.size(); ++i) {
     if (!hits_[i].is_hit()) continue;
     const Vec3 lift = columns.curve[i] - columns.position[i];
-    rounded += columns.is_rounded[i];
+    rounded += columns.is_lit_over_curve[i];
     lifted += lift != Vec3(0.0);
     if (lift == Vec3(0.0)) continue;
     EXPECT_GT(glm::dot(lift, columns.geometric_normal[i]), 0.0);

@@ -98,7 +98,7 @@ LineBodies place_bodies(const CompiledScene& scene, const LineView& view, TilePo
     place_points(placed, body, view);
     place_faces(placed, body, view);
     placed.is_cut = !view.is_perspective() && placed.lo.z < 0.0;
-    placed.hides_backs = placed.shape->is_solid && is_seen_from_outside(placed, view);
+    placed.hides_backs = placed.shape->is_outward && is_seen_from_outside(placed, view);
     placed.is_whole = placed.shape->is_convex && placed.hides_backs && placed.shape->faces.size() <= kMostFacesOfWhole;
   });
   for (size_t i = scene.finite_bodies; i < scene.bodies.size(); ++i) {

@@ -128,8 +128,8 @@ LineShape make_mesh_shape(const CompiledMesh& mesh) {
   shape.edges = edges_of(shape.faces, &mesh);
   if (!mesh.is_manifold || shape.faces.empty()) return shape;
   const std::vector<uint32_t> parts = parts_of(shape);
-  shape.is_solid = are_parts_outward(mesh, parts);
-  shape.is_convex = shape.is_solid && is_convex_solid(mesh, shape, parts);
+  shape.is_outward = are_parts_outward(mesh, parts);
+  shape.is_convex = shape.is_outward && is_convex_solid(mesh, shape, parts);
   return shape;
 }
 
@@ -142,7 +142,7 @@ LineShape make_box_shape() {
   }
   shape.edges = edges_of(shape.faces, nullptr);
   for (LineEdge& edge : shape.edges) edge.sharpness = Sharpness::sharp;
-  shape.is_solid = shape.is_convex = true;
+  shape.is_outward = shape.is_convex = true;
   return shape;
 }
 

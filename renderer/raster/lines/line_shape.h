@@ -31,9 +31,9 @@ struct LineEdge {
 struct LineShape {
   std::vector<LineFace> faces;
   std::vector<LineEdge> edges;
-  bool is_solid = false;   // closed, with every part's normals outward: its back faces hide nothing that its front
-                           // faces leave visible
-  bool is_convex = false;  // implies is_solid
+  bool is_outward = false;  // closed, with every part's normals outward: its back faces hide nothing that its front
+                            // faces leave visible
+  bool is_convex = false;   // implies is_outward
 };
 
 LineShape make_mesh_shape(const CompiledMesh& mesh);
