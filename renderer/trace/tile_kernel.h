@@ -345,7 +345,7 @@ class TileKernel {
   void cross_own_facets() {
     for (size_t p = 0; p < pending_.size(); ++p) {
       const uint32_t i = pending_[p].hit;
-      if (!surfaces_.is_rounded[i] || lit_.is_from_curve[i]) continue;
+      if (!surfaces_.is_lit_over_curve[i] || lit_.is_from_curve[i]) continue;
       if (glm::dot(surfaces_.geometric_normal[i], lit_.to_light[i]) > 0.0) continue;
       const CompiledMaterial& own = scene_.materials[scene_.bodies[hits_[i].body].material];
       visible_[p] *= kCan.glass ? own.source.transmission : Color(0.0);
