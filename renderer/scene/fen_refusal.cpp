@@ -52,13 +52,32 @@ bool is_diagram(std::string_view text) {
   return parts >= kFewest && text.find('/') == std::string_view::npos;
 }
 
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// "https://lichess.org/...", "lichess.org/...".
+bool is_address(std::string_view text) {
+  const std::string_view host = text.substr(0, text.find('/'));
+  const size_t dot = std::min(host.rfind('.'), host.size());
+  const bool has_dot = dot > 0 && dot + 1 < host.size() && is_letter(host[dot - 1]) && is_letter(host[dot + 1]);
+  const bool is_word = host.find(' ') == std::string_view::npos && host.size() < text.size();
+  return text.find("://") != std::string_view::npos || (has_dot && is_word);
+}
+
+// "[Event" first.
+bool has_tags(std::string_view text) {
+  size_t at = 0;
+  while (const size_t bytes = blank_at(text, at)) at += bytes;
+  return at + 1 < text.size() && text[at] == '[' && is_letter(text[at + 1]);
+}
+
 }  // namespace
 
 std::optional<std::string> other_board(const std::vector<std::string_view>& ranks) {
   constexpr size_t kFewestRanks = 6;  // fewer are a part of a board
+  if (ranks.size() < kFewestRanks) return std::nullopt;
   const int files = files_of(ranks[0]);
   const bool is_chess = ranks.size() == 8 && files == 8;
-  if (is_chess || ranks.size() < kFewestRanks || files == 0) return std::nullopt;
+  if (is_chess || files == 0) return std::nullopt;
   if (std::any_of(ranks.begin(), ranks.end(), [files](std::string_view rank) { return files_of(rank) != files; }))
     return std::nullopt;
   return "found " + std::to_string(ranks.size()) + " ranks of " + std::to_string(files) + " files" +
@@ -69,11 +88,12 @@ std::string why_no_fen(std::string_view text, const std::vector<std::string_view
   if (auto board = other_board(ranks)) return *board;
   if (is_diagram(text))
     return "found a diagram, no FEN" + std::string(kAllowed) + ", men as letters and empty squares as numbers";
-  if (text.find("://") != std::string_view::npos)
-    return "found an address; allowed: a FEN alone, which is the part of it with seven slashes";
-  if (text.starts_with("startpos"))
+  if (is_address(text)) return "found an address; allowed: a FEN alone, which is the part of it with seven slashes";
+  if (text.find("startpos") != std::string_view::npos)
     return "found \"startpos\", which names a position without its squares; allowed: a FEN";
-  return "found " + std::to_string(ranks.size()) + (ranks.size() == 1 ? " rank" : " ranks") + std::string(kAllowed);
+  if (has_tags(text)) return "found the tags of a game, but no tag [FEN \"...\"]; allowed: a FEN";
+  if (ranks.size() <= 1) return "found no \"/\" between ranks" + std::string(kAllowed);
+  return "found " + std::to_string(ranks.size()) + " ranks" + std::string(kAllowed);
 }
 
 }  // namespace tilelight

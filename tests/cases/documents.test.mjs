@@ -108,6 +108,8 @@ test('what is left out of a position is told by the plan and by the job, and not
   assert.match(await told(`Q~${kStart.slice(1)}`), /'~'/);
   assert.match(await told(`${kStart} w KQkq - bm e4; id "a";`), /"bm e4; id "a" is left out/);
   assert.match(await told(`horde:${kStart} w KQkq - 0 1`), /"horde:" is left out/);
+  assert.equal(await told(`{"fen": "${kStart} w KQkq - 0 1"}`), '');
+  assert.match(await told(`3, a/b: ${kStart} w KQkq - 0 1`), /^"3, a\/b:" is left out$/);
   assert.match(await told('rnsmksnr/8/pppppppp/8/8/PPPPPPPP/8/RNSKMSNR'), /makruk are drawn as bishops and queens/);
   assert.match(await told(`${kStart} w - -\n${kStart} b - -`), /of several positions the first is drawn/);
 });
@@ -179,8 +181,8 @@ test('the pattern of the schema matches all that is drawn and refuses what a pat
   for (const { line, program, refusal } of await readLines()) assert.equal(pattern.test(line), !refusal, program);
   for (const { what, fen } of await readJson('positions_as_pasted.json')) assert.ok(pattern.test(fen), what);
   for (const fen of ['', '8/8', '8/8/8/8/8/8/8', '8/8/8/8/8/8/8/8/8', '8/8/8/9/8/8/8/8', '8/8/8/8/8/8/8/7x', 'startpos',
-    '8/8/8/8//8/8/8', '8/8/8/8/8/8/8/8[', '8/8/8/8/8/8/8/8[x]', '8/8/8/8/8/8/8/8]', '~8/8/8/8/8/8/8/8',
-    '8 8 8 8 8 8 8 8', `${kStart}/RNBQKBNR`, 'ppppppppp/8/8/8/8/8/8/8', `x ${kStart}`, '[Event "?"]\n\n1. e4 *']) {
+    '8/8/8/8//8/8/8', 'x8/8/8/8/8/8/8/8', '~8/8/8/8/8/8/8/8', '1. 8/8/8/8*/8/8/8/8',
+    '8 8 8 8 8 8 8 8', `${kStart}/RNBQKBNR`, 'ppppppppp/8/8/8/8/8/8/8', `https://a.org/${kStart}`, '[Event "?"]\n\n1. e4 *']) {
     assert.ok(!pattern.test(fen), fen);
     assert.equal((await draw(boardOf(fen))).problem?.status, 422, fen);
   }
@@ -188,8 +190,13 @@ test('the pattern of the schema matches all that is drawn and refuses what a pat
 
 test('the pattern takes no time over texts that almost match', async () => {
   const pattern = new RegExp((await fenSchema()).pattern, 'u');
-  for (const part of ['a:', 'fen ', '"', ' ', '8/', '[FEN "', '[', 'p~', '8 ', 'a', '/', '_"']) {
-    assert.equal(pattern.test(part.repeat(Math.floor(4096 / part.length))), false, part);
+  const kParts = ['a:', 'fen ', '"', ' ', '8/', '[FEN "', '[', 'p~', '8 ', 'a', '/', '_"', '.', ' .', '/ ', ' /', '%20', '%2F',
+    '%3D', '%20%2F', '\u200b', '8\u200b', '8/8/8/8/8/8/8/', '(8.', 'p.p/', '://'];
+  const texts = kParts.map((part) => part.repeat(Math.floor(4096 / part.length)));
+  for (const text of [...texts, `8${'\u200b'.repeat(4095)}`, `8${' '.repeat(4095)}`, `x${'.'.repeat(4095)}`]) {
+    const begin = performance.now();
+    assert.equal(pattern.test(text), false, text.slice(0, 20));
+    assert.ok(performance.now() - begin < 100, text.slice(0, 20));
   }
 });
 
