@@ -32,8 +32,8 @@ struct Placement {
   std::string_view behind;
 };
 
-// The first words that seven slashes or more part, blanks beside slashes parting nothing. Without such: the words of the
-// most slashes, with fewer than eight ranks. Addresses are none.
+// The first words that seven slashes or more part, blanks beside slashes parting nothing. Without such: the words of
+// the most slashes, with fewer than eight ranks. Addresses are none.
 Placement find_placement(std::string_view text);
 
 // Whether there is nothing but blanks, stops and the words that say that a position follows.

@@ -106,16 +106,19 @@ size_t end_of_last_rank(std::string_view text, size_t at) {
   return at;
 }
 
-// Men behind the slash at `at`. A king is never in a pocket: with a king it is a ninth rank.
+size_t end_of_men(std::string_view text, size_t at) {
+  return std::min(text.find_first_not_of("PNBRQpnbrq~-", at), text.size());
+}
+
+// Men alone behind the slash at `at`. A king is never in a pocket: with a king it is a ninth rank.
 bool is_slash_pocket(std::string_view text, size_t at) {
-  const size_t end = end_of_rank(text, at + 1);
-  const bool is_over = end == text.size() || text[end] != '/';
-  return is_over && text.substr(at + 1, end - at - 1).find_first_not_of("PNBRQpnbrq~-") == std::string_view::npos;
+  const size_t end = end_of_men(text, at + 1);
+  return is_word_end(text, end) || no_width_at(text, end) > 0 || kMarks.find(text[end]) != std::string_view::npos;
 }
 
 // Where the pocket at `at` ends: `at`, if there is none.
 size_t end_of_pocket(std::string_view text, size_t at) {
-  if (at < text.size() && text[at] == '/') at = end_of_rank(text, at + 1);
+  if (at < text.size() && text[at] == '/') at = end_of_men(text, at + 1);
   if (at >= text.size() || text[at] != '[') return at;
   const size_t bracket = text.find(']', at);
   return bracket == std::string_view::npos ? at : bracket + 1;
@@ -129,7 +132,8 @@ Placement cut_placement(std::string_view text, size_t at) {
     end = out.ranks.size() + 1 == kFenRanks ? end_of_last_rank(text, at) : end_of_rank(text, at);
     out.ranks.push_back(text.substr(at, end - at));
     const size_t slash = out.ranks.size() < kFenRanks ? skip_blanks(text, end) : end;
-    more = slash < text.size() && text[slash] == '/' && !(out.ranks.size() == kFenRanks && is_slash_pocket(text, slash));
+    more =
+        slash < text.size() && text[slash] == '/' && !(out.ranks.size() == kFenRanks && is_slash_pocket(text, slash));
     at = more ? skip_blanks(text, slash + 1) : end;
   }
   std::string_view& first = out.ranks[0];

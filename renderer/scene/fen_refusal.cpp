@@ -88,8 +88,7 @@ std::string why_no_fen(std::string_view text, const std::vector<std::string_view
   if (auto board = other_board(ranks)) return *board;
   if (is_diagram(text))
     return "found a diagram, no FEN" + std::string(kAllowed) + ", men as letters and empty squares as numbers";
-  if (is_address(text))
-    return "found an address; allowed: a FEN alone, which is the part of it with seven slashes";
+  if (is_address(text)) return "found an address; allowed: a FEN alone, which is the part of it with seven slashes";
   if (text.find("startpos") != std::string_view::npos)
     return "found \"startpos\", which names a position without its squares; allowed: a FEN";
   if (has_tags(text)) return "found the tags of a game, but no tag [FEN \"...\"]; allowed: a FEN";
