@@ -40,6 +40,12 @@ class FacetTree {
     const double size = std::max({sides.x, sides.y, sides.z});
     gap_ = 0x1p-20 * size + rounding, least_overlap_ = 0x1p-40 * size + rounding;
     std::iota(order_.begin(), order_.end(), 0u);
+    for (uint32_t t = 0; t < order_.size(); ++t) {
+      const Corners at = corners_of(t);
+      normals_.push_back(geometric_normal(at[0], at[1], at[2]));
+      middles_.push_back(at[0] / 3.0 + at[1] / 3.0 + at[2] / 3.0);
+    }
+    nodes_.reserve(2 * order_.size());
     if (!order_.empty()) build(0, static_cast<uint32_t>(order_.size()));
   }
 
@@ -83,13 +89,9 @@ class FacetTree {
   uint32_t build(uint32_t first, uint32_t count) {
     const auto index = static_cast<uint32_t>(nodes_.size());
     Extent box, middles;
-    const auto middle = [&](uint32_t triangle) {
-      const Corners at = corners_of(triangle);
-      return at[0] / 3.0 + at[1] / 3.0 + at[2] / 3.0;
-    };
     for (uint32_t i = first; i < first + count; ++i) {
       for (const Vec3& p : corners_of(order_[i])) box.grow(p);
-      middles.grow(middle(order_[i]));
+      middles.grow(middles_[order_[i]]);
     }
     nodes_.push_back({box.widened(0.5 * gap_), first, count});
     if (count == 1) return index;
@@ -98,7 +100,7 @@ class FacetTree {
     const uint32_t half = count / 2;
     const auto begin = order_.begin() + first;
     std::nth_element(begin, begin + half, begin + count,
-                     [&](uint32_t a, uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
+                     [&](uint32_t a, uint32_t b) { return middles_[a][axis] < middles_[b][axis]; });
     build(first, half);
     const uint32_t second = build(first + half, count - half);
     nodes_[index].second_child = second;
@@ -108,9 +110,9 @@ class FacetTree {
   // By separating axes: across the plane, and in it across every edge. Neighbours in a smooth or flat surface have an
   // edge in common, across which they lie beside each other.
   bool are_in_one_place(uint32_t i, uint32_t k) const {
+    const Vec3 &normal = normals_[i], across_both = glm::cross(normal, normals_[k]);
+    if (!(glm::dot(across_both, across_both) < kParallel * kParallel)) return false;
     const Corners a = corners_of(i), b = corners_of(k);
-    const Vec3 normal = geometric_normal(a[0], a[1], a[2]), other = geometric_normal(b[0], b[1], b[2]);
-    if (!(glm::length(glm::cross(normal, other)) < kParallel)) return false;
     if (overlap_along(normal, a, b) < -gap_) return false;
     for (const Corners& of : {a, b}) {
       for (size_t c = 0; c < 3; ++c) {
@@ -123,6 +125,7 @@ class FacetTree {
 
   const TriMesh& mesh_;
   std::vector<uint32_t> order_;
+  std::vector<Vec3> normals_, middles_;  // by facet
   std::vector<Node> nodes_;
   double gap_ = 0.0, least_overlap_ = 0.0;
 };

@@ -17,8 +17,8 @@ struct TriMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;   // counter-clockwise from outside
   std::vector<std::array<Vec3, 3>> corner_normals;  // unit, one triple a triangle; empty = flat everywhere
-  bool closed = false;             // every edge is used as often one way as the other
-  bool is_manifold = false;        // closed, and every edge is used exactly twice
+  bool closed = false;                              // every edge is used as often one way as the other
+  bool is_manifold = false;                         // closed, and every edge is used exactly twice
   bool is_known_outward = false;   // made by the program: closed, outward everywhere, and nowhere through itself
   int64_t degenerate_dropped = 0;  // triangles of zero area that were left out
   int64_t normals_repaired = 0;    // zero or missing normals replaced by the geometric one

@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import { post, readJson, startServer, tilelight } from './harness.mjs';
+import { readPng } from './png.mjs';
 
 let folder, server;
 before(async () => {
@@ -38,6 +39,13 @@ async function warnings(scene) {
   const response = await post(server, '/v1/plan', scene);
   assert.equal(response.status, 200);
   return (await response.json()).warnings;
+}
+// How many pixels of two pictures differ by more than a level in some channel.
+async function differing(scene, other) {
+  const [a, b] = [readPng(await picture(scene)).rgb, readPng(await picture(other)).rgb];
+  let count = 0;
+  for (let i = 0; i < a.length; i += 3) count += [0, 1, 2].some((c) => Math.abs(a[i + c] - b[i + c]) > 1);
+  return count;
 }
 const codes = async (scene) => (await warnings(scene)).map((warning) => warning.code);
 const turned = (scene) => ({ ...scene, objects: [...scene.objects].reverse() });
@@ -118,6 +126,30 @@ test('faces that are in one place but for the rounding of their numbers touch', 
   const rotated = structuredClone(base);
   for (const object of rotated.objects) object.rotate_deg = { axis: [1, 2, 3], angle: 37 };
   assert.deepEqual((await explain(rotated)).color_linear, (await explain(turned(rotated))).color_linear);
+});
+
+// What a document adds to a far place is rounded on its way there, and what a placement adds is not.
+test('a mesh that is moved far away touches the box that lies there', async () => {
+  const base = await readJson('glass-on-water-down.json');
+  const expected = readPng(await picture(base)).rgb[0];
+  const random = randomFrom(3);
+  for (const far of [0, 1e3, 1e5, 1e7, -1e7]) {
+    for (let i = 0; i < 12; ++i) {
+      const low = 0.2 + 0.1 * random();
+      const scene = structuredClone(base);
+      scene.meshes = { block: { positions: kCube.positions.map((v, k) => (k % 3 === 1 ? low + v : 18 * v)), indices: kCube.indices } };
+      scene.objects[0] = { type: 'mesh', mesh: 'block', translate: [0, far, 0], material: 'g' };
+      scene.objects[1].min[1] = far + low - 1, scene.objects[1].max[1] = far + low;
+      for (const way of ['position', 'target']) scene.camera[way][1] += far + low;
+      for (const order of [scene, turned(scene)])
+        near(readPng(await picture(order)).rgb[0], expected, 1, `${low} at ${far}`);
+      if (i > 0) continue;
+      const [primary, next] = (await explain(scene)).rays;
+      assert.equal(next.kind, 'refracted', `${low} at ${far}`);
+      const sine = (ray) => Math.hypot(ray.direction[0], ray.direction[2]);
+      near(1.5 * sine(primary), 1.33 * sine(next), 1e-9, `n sin, ${low} at ${far}`);
+    }
+  }
 });
 
 const kCube = {
@@ -301,6 +333,79 @@ test('two cubes of one mesh with a face in common are one piece of glass', async
     near(color_linear[0], 0.9 * 0.9, 1e-15, 'the top and the bottom alone');
     assert.equal(rays.length, 3);
   }
+});
+
+// From z = -1 to 1; the outline counter-clockwise, its caps by triangles of corners.
+const prism = (outline, cap) => {
+  const n = outline.length;
+  const walls = outline.flatMap((_, i) => [i, (i + 1) % n, n + i, (i + 1) % n, n + (i + 1) % n, n + i]);
+  return { positions: [-1, 1].flatMap((z) => outline.flatMap(([x, y]) => [x, y, z])),
+           indices: [...walls, ...reversedIndices(cap), ...cap.map((v) => n + v)] };
+};
+
+test('a slit without width in a body of glass is not there', async () => {
+  const scene = {
+    image: { width: 120, height: 90 }, camera: { position: [7, 5, 8], target: [2, 2, 0], fov_y_deg: 40 },
+    render: { samples: 1, shadows: false },  // light is tinted by hidden faces too
+    materials: { g: { diffuse: 0, transmission: 0.9 }, f: { diffuse: { checker: { size: 0.5 } } } },
+    objects: [{ type: 'plane', point: [0, -0.5, 0], material: 'f' }, { type: 'mesh', mesh: 't', material: 'g' }],
+  };
+  const slit = prism([[0, 0], [4, 0], [4, 2], [2, 2], [4.5, 2], [4.5, 4], [0, 4]], [0, 1, 3, 1, 2, 3, 0, 3, 6, 3, 4, 6, 4, 5, 6]);
+  const whole = prism([[0, 0], [4, 0], [4, 2], [4.5, 2], [4.5, 4], [0, 4]], [0, 1, 2, 0, 2, 5, 2, 3, 4, 2, 4, 5]);
+  assert.equal(await differing({ ...scene, meshes: { t: slit } }, { ...scene, meshes: { t: whole } }), 0);
+});
+
+test('of two cubes of one mesh with a face in common one inside out is turned, and a facet added both ways changes nothing', async () => {
+  const scene = await readJson('glass-inside-out.json');
+  scene.image = { width: 60, height: 45 };
+  scene.objects[1].scale = 0.6;
+  const of = (mesh) => ({ ...scene, meshes: { t: mesh } });
+  const low = moved(kCube, [0, 0.5, 0]), high = moved(kCube, [0, 1.5, 0]);
+  const right = await picture(of(joined(low, high)));
+  for (const mesh of [joined(low, insideOut(high)), joined(insideOut(low), high), joined(insideOut(high), low)]) {
+    assert.deepEqual(await codes(of(mesh)), ['inside_out_glass']);
+    assert.ok(right.equals(await picture(of(mesh))));
+  }
+  scene.render.shadows = false;  // light is tinted by hidden faces too
+  const one = await picture(of(low));
+  for (const facet of [[0, 4, 6], [1, 5, 0], [2, 7, 3]]) {
+    const more = { ...low, indices: [...low.indices, ...facet, ...reversedIndices(facet)] };
+    assert.deepEqual(await codes(of(more)), []);
+    assert.ok(one.equals(await picture(of(more))), `${facet}`);
+  }
+});
+
+test('an eye where two shells of one mesh overlap is in the glass until it leaves the second', async () => {
+  const unit = moved(kCube, [0.5, 0.5, 0.5]);
+  const scene = {
+    image: { width: 1, height: 1 }, ambient: 0, lights: [], background: { bottom: 1, top: 1 }, render: { weight_cutoff: 0, max_depth: 20 },
+    camera: { position: [0.7, 0.5, 0.5], target: [1.7, 0.8, 0.6], fov_y_deg: 0.001 },
+    materials: { g: { diffuse: 0, transmission: 0.9, ior: 1.5 } },
+    meshes: { t: joined(unit, moved(kCube, [1, 0.5, 0.5])) }, objects: [{ type: 'mesh', mesh: 't', material: 'g' }],
+  };
+  const orthographic = { ...scene.camera, fov_y_deg: undefined, type: 'orthographic', height: 1e-6 };
+  for (const camera of [scene.camera, orthographic]) {
+    const { rays } = await explain({ ...scene, camera });
+    const [primary, across, out] = rays;
+    for (let axis = 0; axis < 3; ++axis) near(across.direction[axis], primary.direction[axis], 1e-12, 'goes straight on');
+    near(across.origin[0], 1, 1e-12, 'the face of the first');
+    near(out.origin[0], 1.5, 1e-12, 'the face of the second');
+    const sine = (ray) => Math.hypot(ray.direction[1], ray.direction[2]);
+    near(sine(out), 1.5 * sine(across), 1e-12, 'n sin');
+  }
+});
+
+test('bodies in one place that differ in normals or pattern alone may stand in any order', async () => {
+  const scene = await readJson('glass-inside-out.json');
+  scene.image = { width: 64, height: 48 };
+  scene.materials.c = { ...scene.materials.g, diffuse: { checker: { size: 0.3 } } };
+  const meshes = { sharp: { ...moved(kCube, [0, 0.5, 0]), crease_deg: 0 }, smooth: { ...moved(kCube, [0, 0.5, 0]), crease_deg: 180 } };
+  const pairs = [
+    [{ type: 'mesh', mesh: 'sharp', material: 'g' }, { type: 'mesh', mesh: 'smooth', material: 'g' }],
+    [{ type: 'sphere', radius: 2, scale: 0.5, material: 'c' }, { type: 'sphere', radius: 1, material: 'c' }],
+  ];
+  for (const objects of pairs)
+    assert.ok((await picture({ ...scene, meshes, objects })).equals(await picture({ ...scene, meshes, objects: [...objects].reverse() })));
 });
 
 test('a sheet of glass with a back is thin, and says so', async () => {

@@ -156,6 +156,52 @@ TEST(Agreement, HoldsInWorldsOfTouchingMediaWhoseOrderChangesNoByte) {
   EXPECT_LE(total.q8_rate(), kMaxQ8Rate) << total.q8_differing << " pixels";
 }
 
+// Meshes whose facets lie on each other, whose shells overlap or are wound against each other, and which lie far away.
+TEST(Agreement, HoldsForGlassMeshesThatTouchOrOverlapThemselves) {
+  const std::string slit = R"([0,0,-1, 4,0,-1, 4,2,-1, 2,2,-1, 4.5,2,-1, 4.5,4,-1, 0,4,-1,
+                               0,0,1, 4,0,1, 4,2,1, 2,2,1, 4.5,2,1, 4.5,4,1, 0,4,1], "indices": [
+    0,1,7, 1,8,7, 1,2,8, 2,9,8, 2,3,9, 3,10,9, 3,4,10, 4,11,10, 4,5,11, 5,12,11, 5,6,12, 6,13,12, 6,0,13, 0,7,13,
+    3,1,0, 3,2,1, 6,3,0, 6,4,3, 6,5,4, 7,8,10, 8,9,10, 7,10,13, 10,11,13, 11,12,13])";
+  const auto cubes = [](const char* second, const char* indices) {
+    return std::string("[0,0,0, 1,0,0, 0,1,0, 1,1,0, 0,0,1, 1,0,1, 0,1,1, 1,1,1, ") + second + R"(], "indices": [
+      0,4,6, 0,6,2, 1,3,7, 1,7,5, 0,1,5, 0,5,4, 2,6,7, 2,7,3, 0,2,3, 0,3,1, 4,5,7, 4,7,6, )" +
+           indices + "]";
+  };
+  const char* right =
+      "8,12,14, 8,14,10, 9,11,15, 9,15,13, 8,9,13, 8,13,12, 10,14,15, 10,15,11, 8,10,11, 8,11,9, 12,13,15, 12,15,14";
+  const char* wrong =
+      "14,12,8, 10,14,8, 15,11,9, 13,15,9, 13,9,8, 12,13,8, 15,14,10, 11,15,10, 11,10,8, 9,11,8, 15,13,12, 14,15,12";
+  const char* above = "0,1,0, 1,1,0, 0,2,0, 1,2,0, 0,1,1, 1,1,1, 0,2,1, 1,2,1";
+  const char* aside = "0.5,0,0, 1.5,0,0, 0.5,1,0, 1.5,1,0, 0.5,0,1, 1.5,0,1, 0.5,1,1, 1.5,1,1";
+  const std::string outside = R"("position": [7, 5, 8], "target": [1.5, 1.5, 0], "fov_y_deg": 40)";
+  const std::string inside = R"("position": [0.7, 0.5, 0.5], "target": [1.7, 0.8, 0.6], "fov_y_deg": 100)";
+  TilePool pool;
+  for (const auto& [mesh, eye] : {std::pair(slit, outside),
+                                  {slit, inside},
+                                  {cubes(above, right), outside},
+                                  {cubes(above, wrong), outside},
+                                  {cubes(above, wrong), inside},
+                                  {cubes(aside, right), outside},
+                                  {cubes(aside, right), inside}}) {
+    const std::string json = R"({"image": {"width": 64, "height": 48}, "camera": {)" + eye + R"(},
+      "materials": {"glass": {"diffuse": 0.03, "reflection": 0.1, "transmission": [0.9, 0.8, 0.7]},
+                    "floor": {"diffuse": {"checker": {"size": 0.5}}}},
+      "lights": [{"type": "point", "position": [4, 6, 3], "intensity": 9}], "meshes": {"m": {"positions": )" +
+                             mesh + R"(}},
+      "objects": [{"type": "plane", "point": [0, -0.5, 0], "material": "floor"},
+                  {"type": "mesh", "mesh": "m", "material": "glass"}]})";
+    const auto parsed = parse_scene(json, Limits{});
+    ASSERT_TRUE(parsed) << parsed.error().errors[0].detail << json;
+    for (const int depth : {8, 0}) {
+      View view = parsed->view;
+      view.render.max_depth = depth;
+      const ImageDifference d = judge_view(parsed->scene, view, pool).difference;
+      EXPECT_EQ(d.id_mismatches, 0) << json << depth;
+      EXPECT_LE(d.q8_differing, 2) << json << depth;
+    }
+  }
+}
+
 // Each ray of an orthographic view starts in the media of its own place on the image plane.
 TEST(Agreement, HoldsWhereTheImagePlaneCutsMedia) {
   const std::string common = R"({"image": {"width": 64, "height": 64}, "render": {"max_depth": 5},
