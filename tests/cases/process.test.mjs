@@ -436,7 +436,7 @@ describe("others' text", () => {
       ['render', path, '-o', join(folder, 'named.png'), '--report', '-']]) {
       const { code, stdout, stderr } = await tilelight(...args);
       assert.equal(code, 0, stderr);
-      shown.push(stdout, stderr);
+      shown.push(String(stdout), stderr);
     }
     for (const text of shown) assert.doesNotMatch(text, /(?!\n)[\p{Cc}\p{Cf}\p{Zl}\p{Zp}\p{Cn}]/u);
     const told = JSON.stringify(JSON.parse(plan));
