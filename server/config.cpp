@@ -168,7 +168,7 @@ Result<void> apply_environment(Config& config, const std::map<std::string, std::
     if (name.rfind("TILELIGHT_", 0) != 0 || name == "TILELIGHT_CONFIG") continue;
     const auto& all = settings();
     const auto setting =
-        std::find_if(all.begin(), all.end(), [&](const Setting& s) { return environment_name(s) == name; });
+        std::find_if(all.begin(), all.end(), [&name = name](const Setting& s) { return environment_name(s) == name; });
     if (setting == all.end()) return fail("unknown_name", "the environment sets " + name + ", which is no setting");
     if (auto done = apply(config, *setting, value, name); !done) return done;
   }
