@@ -165,7 +165,7 @@ ReferenceBody::ReferenceBody(const Body& body, std::shared_ptr<const MeshTree> m
       material(body.material),
       mesh(std::move(mesh_tree)),
       has_inside(body.has_inside),
-      may_touch_itself(body.kind == BodyKind::mesh && body.layer == Layer::medium),
+      may_touch_itself(body.kind == BodyKind::mesh && body.layer == Layer::medium && !body.mesh->is_known_outward),
       layer(body.layer),
       rank(body.rank),
       bounds(world_bounds(*this)),

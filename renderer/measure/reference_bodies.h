@@ -60,8 +60,9 @@ struct ReferenceBody {
   Mat3 pattern_normal_from_local;
   MaterialId material;
   std::shared_ptr<const MeshTree> mesh;
-  bool has_inside;        // light can be bent on its way in and out
-  bool may_touch_itself;  // asked of every mesh that light goes through, so that no search for such places is trusted
+  bool has_inside;  // light can be bent on its way in and out
+  // Asked of every mesh of a document that light goes through, so that no search for such places is trusted.
+  bool may_touch_itself;
   Layer layer;
   uint32_t rank;
   Box bounds;            // world space; infinite for planes
