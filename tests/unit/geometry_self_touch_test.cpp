@@ -13,7 +13,7 @@ namespace {
 using Outline = std::vector<Vec3>;  // counter-clockwise, in the plane z = 0
 using Caps = std::vector<uint32_t>;
 
-// From z = -1 to 1. Bit i of `diagonals`: how the i-th wall is cut into two.
+// From z = -1 to 1. Bit i of `diagonals`: how the i-th wall, of the first 32, is cut into two.
 MeshData prism(const Outline& outline, const Caps& cap, unsigned diagonals = 0) {
   MeshData mesh;
   const auto n = static_cast<uint32_t>(outline.size());
@@ -22,7 +22,7 @@ MeshData prism(const Outline& outline, const Caps& cap, unsigned diagonals = 0) 
   const auto add = [&](uint32_t a, uint32_t b, uint32_t c) { mesh.indices.insert(mesh.indices.end(), {a, b, c}); };
   for (uint32_t i = 0; i < n; ++i) {
     const uint32_t k = (i + 1) % n;
-    if (diagonals >> i & 1) {
+    if (i < 32 && (diagonals >> i & 1)) {
       add(i, k, n + k), add(i, n + k, n + i);
     } else {
       add(i, k, n + i), add(k, n + k, n + i);
