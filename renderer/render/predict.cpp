@@ -150,11 +150,12 @@ double sober_decay(const Probe& probe) {
 
 }  // namespace
 
-CostPrediction predict_cost(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool) {
+CostPrediction predict_cost(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool,
+                            double probe_budget_ms) {
   const StandardFloats floats;
   const auto start = std::chrono::steady_clock::now();
   const int threads = pool.thread_count();
-  Probe probe = probe_view(*drawn_scene(scene, plan, pool), plan);
+  Probe probe = probe_view(*drawn_scene(scene, plan, pool), plan, probe_budget_ms);
   probe.decay = sober_decay(probe);
   const double pixels = plan.view.image.width * static_cast<double>(plan.view.image.height);
   const double cpu_ms_a_sample = kReporting * pixels * probe.rays_per_sample * probe.ms_per_ray;

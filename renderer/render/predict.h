@@ -5,6 +5,7 @@
 #include <string>
 
 #include "renderer/compile/compile.h"
+#include "renderer/render/probe.h"
 
 namespace tilelight {
 
@@ -22,8 +23,9 @@ struct CostPrediction {
 
 // Traces a few thousand of the render's own samples on the calling thread (probe.h), and lets the schedule of passes
 // run on what they tell. Methods that find by other means than rays what is seen shade as the tracer does, which is
-// most of the work, and count as its equals.
-CostPrediction predict_cost(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool);
+// most of the work, and count as its equals. probe_budget_ms: as probe_view takes it.
+CostPrediction predict_cost(const std::shared_ptr<const CompiledScene>& scene, const ViewPlan& plan, TilePool& pool,
+                            double probe_budget_ms = kProbeMs);
 
 // {"spp": ..., "mrays": ..., "cpu_ms": ..., "elapsed_ms": ..., "elapsed_ci95_ms": [low, high], "rmse": ... or null,
 // "rmse_ci95": [low, high] or null, "probe_ms": ...}

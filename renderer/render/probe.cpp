@@ -20,6 +20,9 @@ double cpu_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+// A block or a spot that would take more than so much of its part of the budget is not tried: a handful tells nothing.
+constexpr double kDearestBlock = 0.3, kDearestSpot = 0.15;
+
 // The rays that it took.
 int64_t trace(const CompiledScene& scene, const ViewPlan& plan, const EyeMedia& eye_media, const TileRect& rect,
               TileView* film = nullptr, uint32_t samples = 1) {
@@ -53,8 +56,7 @@ int golden_stride(int count) {
 }
 
 // One sample a cell, all over the image, until all are traced or the time is over.
-void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 10.0;
+void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, double enough_ms, Probe& probe) {
   constexpr int kAtLeast = 8;
   const ViewPlan cells = in_cells(plan);
   const EyeMedia eye_media(scene, cells);
@@ -62,7 +64,7 @@ void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) 
   const double start = cpu_ms();
   int64_t rays = 0, place = 0;
   int asked = 0;
-  for (; asked < count && (asked < kAtLeast || cpu_ms() - start < kEnoughMs);
+  for (; asked < count && (asked < kAtLeast || cpu_ms() - start < enough_ms);
        ++asked, place = (place + stride) % count) {
     const int x = static_cast<int>(place % width), y = static_cast<int>(place / width);
     rays += trace(scene, cells, eye_media, {x, y, x + 1, y + 1});
@@ -73,17 +75,16 @@ void ask_pixels(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) 
 
 // What a ray costs among its neighbours: blocks all over the image, each of as many samples as a kernel takes at a
 // time. A pixel alone pays too much for setting out.
-void ask_blocks(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 10.0, kBlockMs = 3.0;
+void ask_blocks(const CompiledScene& scene, const ViewPlan& plan, double enough_ms, Probe& probe) {
   constexpr int kBlockPx = 2 * kCellPx, kBlocks = 32;
   constexpr uint32_t kSamples = 4;
-  if (kBlockPx * kBlockPx * kSamples * probe.rays_per_sample * probe.ms_per_ray > kBlockMs) return;
+  if (kBlockPx * kBlockPx * kSamples * probe.rays_per_sample * probe.ms_per_ray > kDearestBlock * enough_ms) return;
   const ImageSpec& image = plan.view.image;
   const int count = tile_count(image.width, image.height, kBlockPx), stride = golden_stride(count);
   const EyeMedia eye_media(scene, plan);
   const double start = cpu_ms();
   int64_t rays = 0, block = 0;
-  for (int i = 0; i < std::min(count, kBlocks) && cpu_ms() - start < kEnoughMs; ++i, block = (block + stride) % count)
+  for (int i = 0; i < std::min(count, kBlocks) && cpu_ms() - start < enough_ms; ++i, block = (block + stride) % count)
     rays += trace(scene, plan, eye_media, tile_rect(static_cast<int>(block), image.width, image.height, kBlockPx),
                   nullptr, kSamples);
   probe.ms_per_ray = (cpu_ms() - start) / static_cast<double>(rays);
@@ -97,11 +98,10 @@ int place_in(int part, int parts, int places, uint64_t bits) {
 
 // Single pixels, each at a random place of its own part of the image. On a film of their own they stand side by side, a
 // cell for each: the view is shifted so that a pixel sees what it would see in the image.
-void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
-  constexpr double kEnoughMs = 20.0, kSpotMs = 3.0;
+void ask_spots(const CompiledScene& scene, const ViewPlan& plan, double enough_ms, Probe& probe) {
   constexpr int kAtLeast = 8, kMostSpots = 768;
   const ImageSpec& image = plan.view.image;
-  if (kProbeSamples * probe.rays_per_sample * probe.ms_per_ray > kSpotMs) return;
+  if (kProbeSamples * probe.rays_per_sample * probe.ms_per_ray > kDearestSpot * enough_ms) return;
 
   const double aspect = static_cast<double>(image.width) / image.height;
   const int columns =
@@ -118,7 +118,7 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
   TileView view = film.view();
   std::vector<int64_t> rays;
   const double start = cpu_ms();
-  for (int i = 0, part = 0; i < count && (i < kAtLeast || cpu_ms() - start < kEnoughMs);
+  for (int i = 0, part = 0; i < count && (i < kAtLeast || cpu_ms() - start < enough_ms);
        ++i, part = (part + stride) % count) {
     const uint64_t random = mix64(static_cast<uint64_t>(part));
     const int x = place_in(part % columns, columns, image.width, random & 0xffff);
@@ -150,11 +150,11 @@ void ask_spots(const CompiledScene& scene, const ViewPlan& plan, Probe& probe) {
 
 }  // namespace
 
-Probe probe_view(const CompiledScene& scene, const ViewPlan& plan) {
+Probe probe_view(const CompiledScene& scene, const ViewPlan& plan, double budget_ms) {
   Probe probe;
-  ask_pixels(scene, plan, probe);
-  ask_spots(scene, plan, probe);
-  ask_blocks(scene, plan, probe);
+  ask_pixels(scene, plan, 0.25 * budget_ms, probe);
+  ask_spots(scene, plan, 0.5 * budget_ms, probe);
+  ask_blocks(scene, plan, 0.25 * budget_ms, probe);
   return probe;
 }
 

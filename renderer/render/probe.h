@@ -20,8 +20,10 @@ struct Probe {
 };
 inline constexpr uint32_t kProbeSamples = 16;
 
-// scene: as drawn_scene gives it. On the calling thread: most take some 10 ms, none of common scenes over 45, and a
-// scene whose samples are very dear eight of them at least.
-Probe probe_view(const CompiledScene& scene, const ViewPlan& plan);
+inline constexpr double kProbeMs = 40.0;
+
+// scene: as drawn_scene gives it. budget_ms: the calling thread's own time after which no more is traced; within it a
+// probe is the same every time. Most scenes take some 10 ms, and one whose samples are very dear eight of them at least.
+Probe probe_view(const CompiledScene& scene, const ViewPlan& plan, double budget_ms = kProbeMs);
 
 }  // namespace tilelight
