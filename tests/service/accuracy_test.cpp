@@ -81,11 +81,17 @@ TEST_F(Accuracy, TheReportReplaysItExactly) {
 }
 
 TEST_F(Accuracy, AnImageCarriesItsErrorInItsHeader) {
-  const HttpAnswer answer = service_.post("/v1/renders", ball(R"("time_ms": 200)"), {{"Accept", "image/png"}});
-  ASSERT_EQ(answer.status, 200) << answer.body;
-  const std::string info = answer.header("render-info");
-  EXPECT_NE(info.find("stop=\"time\""), std::string::npos) << info;
-  EXPECT_NE(info.find(", rmse=0.0"), std::string::npos) << info;
+  const auto info_of = [&](const std::string& rule) {
+    const HttpAnswer answer = service_.post("/v1/renders", ball(rule), {{"Accept", "image/png"}});
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return answer.header("render-info");
+  };
+  const std::string by_error = info_of(R"("rmse": 0.004)");
+  EXPECT_NE(by_error.find("stop=\"rmse\""), std::string::npos) << by_error;
+  EXPECT_NE(by_error.find(", rmse=0.00"), std::string::npos) << by_error;
+  // How far it gets in that time, and with it whether an error is known, is the machine's.
+  const std::string by_time = info_of(R"("time_ms": 20)");
+  EXPECT_NE(by_time.find("stop=\"time\""), std::string::npos) << by_time;
 }
 
 TEST_F(Accuracy, TheLayerOfErrorsComesInColoursAndAsNumbers) {
