@@ -27,8 +27,8 @@ std::vector<std::string> names_of(const std::array<NamedValue<Enum>, n>& table) 
 }
 
 void add_view_options(CLI::App& app, ViewOptions& view) {
-  app.add_option("--width", view.width, "Width of the image, in pixels");
-  app.add_option("--height", view.height, "Height of the image, in pixels");
+  app.add_option("--width", view.width, "Width of the image, in pixels; without it the scene's");
+  app.add_option("--height", view.height, "Height of the image, in pixels; without it the scene's");
   app.add_option("--algorithm", view.algorithm, "Hidden-surface method")->check(CLI::IsMember(names_of(kAlgorithms)));
   app.add_option("--shading", view.shading, "Shading rule")->check(CLI::IsMember(names_of(kShadings)));
   app.add_flag("--hidden-lines", view.hidden_lines, "Line drawings: hidden lines too, dashed");

@@ -12,6 +12,11 @@ namespace {
 // A mesh of wrong numbers must not crowd out the other errors.
 constexpr int kMaxErrorsInList = 5;
 
+std::string with_article(std::string_view noun) {
+  const bool has_vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+  return (has_vowel ? "an " : "a ") + std::string(noun);
+}
+
 bool is_in_range(double number, const Range& range) {
   if (number < range.min || (range.above_min && number == range.min)) return false;
   if (number > range.max || (range.below_max && number == range.max)) return false;
@@ -147,7 +152,7 @@ class GrammarCheck {
     std::string hint = did_you_mean(key, known);
     if (hint.empty()) hint = "keys of your own begin with \"x-\" or go into \"extras\"";
     return {"unknown_key",
-            "found " + in_quotes(key) + "; allowed in a " + std::string(record.name) + ": " + join_words(known),
+            "found " + in_quotes(key) + "; allowed in " + with_article(record.name) + ": " + join_words(known),
             std::move(known), std::move(hint)};
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "renderer/base/characters.h"
 #include "renderer/scene/place.h"
@@ -58,8 +59,11 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string number_text(double number) {
+  constexpr double kLongest = 1e15;  // a size is more easily read as 100000 than as 1e+05
   char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
+  const bool is_short_whole = std::abs(number) < kLongest && std::trunc(number) == number;
+  const auto result = is_short_whole ? std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed)
+                                     : std::to_chars(buffer, buffer + sizeof buffer, number);
   return {buffer, result.ptr};
 }
 
