@@ -17,7 +17,7 @@ export function stillDocument(sceneText, { camera, image, rule = null, method = 
 // answered with a job, and tilelight.png then holds that job's JSON.
 export function curlCommand(baseUrl, document) {
   return [
-    `curl --silent --show-error --fail '${baseUrl}/v1/renders' \\`,
+    `curl --silent --show-error --fail-with-body '${baseUrl}/v1/renders' \\`,
     "  --header 'Content-Type: application/json' --header 'Accept: image/png' \\",
     "  --output tilelight.png --data-binary @- <<'SCENE'",
     JSON.stringify(document),
