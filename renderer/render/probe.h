@@ -22,8 +22,9 @@ inline constexpr uint32_t kProbeSamples = 16;
 
 inline constexpr double kProbeMs = 40.0;
 
-// scene: as drawn_scene gives it. budget_ms: the calling thread's own time after which no more is traced; within it a
-// probe is the same every time. Most scenes take some 10 ms, and one whose samples are very dear eight of them at least.
+// scene: as drawn_scene gives it. budget_ms: the calling thread's own time after which no more is traced; a probe that
+// ends within it tells the same rays and variances every time. Most scenes take some 10 ms, and one whose samples are
+// very dear eight of them at least.
 Probe probe_view(const CompiledScene& scene, const ViewPlan& plan, double budget_ms = kProbeMs);
 
 }  // namespace tilelight

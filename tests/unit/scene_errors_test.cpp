@@ -246,6 +246,15 @@ TEST(Errors, ListTheAllowedWords) {
   EXPECT_NE(error.detail.find("painter"), std::string::npos);
 }
 
+TEST(Errors, SayNumbersAndNounsAsAReaderWould) {
+  const SceneError size = error_of(with(R"("image": {"width": 100000})"), "limit");
+  EXPECT_EQ(size.detail.find("found 100000;"), 0u) << size.detail;
+  const SceneError huge = error_of(with(R"("image": {"width": 1e300})"), "limit");
+  EXPECT_EQ(huge.detail.find("found 1e+300;"), 0u) << huge.detail;
+  const SceneError key = error_of(with(R"("image": {"size": 1})"), "unknown_key");
+  EXPECT_NE(key.detail.find("allowed in an image: "), std::string::npos) << key.detail;
+}
+
 TEST(Errors, OfOneListDoNotCrowdOutTheOthers) {
   std::string indices = "9";
   for (int i = 1; i < 300; ++i) indices += ",9";

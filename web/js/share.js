@@ -12,9 +12,9 @@ export function stillDocument(sceneText, { camera, image, rule = null, method = 
   return Object.keys(render).length > 0 ? { ...out, render } : out;
 }
 
-// A command that any POSIX shell with curl runs as it is. The scene stands in a quoted here-document, in which a shell
-// changes nothing; no line of JSON can be its end mark. A picture that takes longer than a request waits (30 seconds) is
-// answered with a job, and tilelight.png then holds that job's JSON.
+// A command that any POSIX shell with curl 7.76 or newer runs as it is. The scene stands in a quoted here-document, in
+// which a shell changes nothing; no line of JSON can be its end mark. A picture that takes longer than a request waits
+// (30 seconds) is answered with a job: tilelight.png then holds that job's JSON, as it holds the reason of a refusal.
 export function curlCommand(baseUrl, document) {
   return [
     `curl --silent --show-error --fail-with-body '${baseUrl}/v1/renders' \\`,
